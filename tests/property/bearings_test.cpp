@@ -137,6 +137,31 @@ TEST(Bearings, KnowEveryPinsThrowAndMasses) {
   }
 }
 
+/// At its firing angle a cylinder's throw points along its axis.
+TEST(Journals, HaveTheirLoadsAlongTheFirstPinsThrowWhicheverCylinderIsOnIt) {
+  EngineDefinition e = support::diesel_495();
+  Layout& layout = e.layout;
+  layout = {};
+  layout.cylinders = 3;
+  for (std::size_t k = 0; k < 3; ++k) {  // numbered from the shaft's end, banks fanned out
+    layout.firing_deg[k] = 240.0 * static_cast<double>(k);
+    layout.bank_deg[k] = 40.0 * static_cast<double>(k) - 30;
+    layout.position_m[k] = -0.1 * static_cast<double>(k);
+    layout.pin[k] = static_cast<std::uint8_t>(2 - k);
+  }
+  ASSERT_TRUE(accepted(validate(layout)));
+  const double axis_rad = 50 * kPi / 180;  // of the third cylinder, which is on pin 0
+  const BlockLoad along = in_block(e, 480, 1000, 0), across = in_block(e, 480, 0, 1000);
+  EXPECT_NEAR(along.up_N, 1000 * std::cos(axis_rad), 1e-9);
+  EXPECT_NEAR(along.lateral_N, 1000 * std::sin(axis_rad), 1e-9);
+  EXPECT_NEAR(across.up_N, -1000 * std::sin(axis_rad), 1e-9) << "90 deg further in the sense of rotation";
+  EXPECT_NEAR(across.lateral_N, 1000 * std::cos(axis_rad), 1e-9);
+  layout.pin[0] = 0, layout.pin[2] = 2;  // of the first: 30 deg to the other side when it fires
+  const BlockLoad of_first = in_block(e, 0, 1000, 0);
+  EXPECT_NEAR(of_first.up_N, 1000 * std::cos(kPi / 6), 1e-9);
+  EXPECT_NEAR(of_first.lateral_N, -1000 * std::sin(kPi / 6), 1e-9);
+}
+
 TEST(Tick, ReportsTheLoadsOfPinsAndJournalsAndTheFreeForcesOfItsParts) {
   using Scene = scenes::Whole;
   Random random;

@@ -8,6 +8,7 @@
 #include <cstring>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include <crankloop/scenes.hpp>
 #include <crankloop/tabulate/cam_contact.hpp>
@@ -191,6 +192,66 @@ TYPED_TEST(CamLoads, GoOnFromASavedState) {
   }
   EXPECT_EQ(rig.engine().output().cam_contact_cycle[0][0].largest_Pa,
             other.engine().output().cam_contact_cycle[0][0].largest_Pa);
+}
+
+/// Where a curve's fit falls below 0, or the force that it takes, there is no stress and no width, and the largest of
+/// the cycle is that of the other ticks.
+TYPED_TEST(CamLoads, AreNoneWhereACurveOfTheContactIsNegative) {
+  using S = WithCamLoads<>;
+  using Curve = detail::CamContactSegment<TypeParam>;
+  using Ratio = detail::Segment<TypeParam>;
+  for (const bool by_ratio : {false, true}) {
+    const auto storage = std::make_unique<TableStorage<TypeParam, S>>();
+    ASSERT_TRUE(accepted(storage->build(loaded_engine(), {50e-6, {}})));
+    Tables<TypeParam, S> tables = storage->tables();
+    detail::CamContactCurve<TypeParam> contact = tables.cam_contacts[0];
+    detail::LiftCurve<TypeParam> lift = tables.lift_curves[0];
+    const std::uint32_t rows = lift.rows();
+    const auto is_bad = [rows](std::uint32_t row) { return row < rows / 2; };  // the opening flank and full lift
+    std::vector<Curve> stress(contact.at, contact.at + rows);
+    std::vector<Ratio> ratio(lift.rocker_ratio, lift.rocker_ratio + rows);
+    for (std::uint32_t row = 0; row < rows; ++row) {
+      if (!is_bad(row)) continue;
+      for (TypeParam& c : by_ratio ? ratio[row].c : stress[row].stress.c) c = -c;
+    }
+    contact.at = stress.data(), lift.rocker_ratio = ratio.data();
+    tables.cam_contacts = &contact, tables.lift_curves = &lift;
+    Engine<TypeParam, S> engine;
+    ASSERT_TRUE(accepted(engine.init(tables, phase_at(90))));
+    Rig<TypeParam, S> sound(loaded_engine(), {50e-6, {}}, 90);
+    const double speed = rad_s_of_rpm(5000);
+    typename Engine<TypeParam, S>::Input in;
+    in.speed_rad_s = static_cast<TypeParam>(speed);
+    int none = 0, same = 0;
+    TypeParam largest_Pa = 0;
+    for (int i = 0; i < 2 * sound.ticks_per_cycle(speed); ++i) {
+      const auto& out = engine.step(in);
+      const auto &is = out.cam_contact[0][0], &was = sound.step(speed).cam_contact[0][0];
+      ASSERT_EQ(is.sliding_m_s, was.sliding_m_s) << i;
+      ASSERT_EQ(is.entrainment_m_s, was.entrainment_m_s) << i;
+      if (was.stress_Pa == 0 || is_bad(lift.cell(engine.state().phase.units(), 0).degree)) {
+        none += was.stress_Pa == 0 ? 0 : 1;
+        ASSERT_EQ(is.stress_Pa, 0) << i;
+        ASSERT_EQ(is.half_width_m, 0) << i;
+      } else {
+        ++same;
+        ASSERT_EQ(is.stress_Pa, was.stress_Pa) << i;
+        ASSERT_EQ(is.half_width_m, was.half_width_m) << i;
+        largest_Pa = std::max(largest_Pa, is.stress_Pa);
+      }
+    }
+    EXPECT_GT(none, 50);
+    EXPECT_GT(same, 50);
+    EXPECT_EQ(engine.output().cam_contact_cycle[0][0].largest_Pa, largest_Pa);
+  }
+}
+
+/// A lobe as long as the cam's turn leaves no row for a base circle.
+TYPED_TEST(CamLoads, OfALobeOfTheWholeTurnAreThoseOfTheExactContact) {
+  ValveTrain train = flat_train();
+  train.cam = polynomial_cam(8e-3, 180, {2, 4, 6, 8});
+  train.cam.full_lift_deg = 450;
+  this->follow_geometry_and_hertz(train, 3000);
 }
 
 TEST(CamContactScene, IsRefusedATrainWithoutAWidth) {

@@ -313,6 +313,35 @@ TYPED_TEST(ExhaustLambda, ChangesNoOtherBit) {
   EXPECT_GT(with->engine.output().sensor_excess_air_ratio, Real{0});
 }
 
+/// 1e-15 m3 of pipe are no way to go.
+TYPED_TEST(ExhaustLambda, BehindAPipeOfNextToNoVolumeIsThatOfTheManifold) {
+  using Real = TypeParam;
+  const auto in_manifold = turning<Real, LambdaFour>(four(0, 0), 3000, 0.4);
+  const auto tiny = turning<Real, LambdaFour>(four(1e-15, 0), 3000, 0.4);
+  ask_lambda(*in_manifold, 0.9), ask_lambda(*tiny, 0.9);
+  int flowing = 0;
+  for (int tick = 0; tick < ticks_of_cycles(12, 3000); ++tick) {
+    const auto &a = in_manifold->step(), &b = tiny->step();
+    ASSERT_EQ(b.exhaust_excess_air_ratio, a.exhaust_excess_air_ratio);
+    if (b.outlet_kg_s <= Real{0}) continue;  // what flows back in comes out of the pipe
+    ASSERT_EQ(b.sensor_excess_air_ratio, a.sensor_excess_air_ratio) << tick;
+    ++flowing;
+  }
+  EXPECT_GT(flowing, 1000);
+  EXPECT_NEAR(static_cast<double>(tiny->engine.output().sensor_excess_air_ratio), 0.9, 0.05);
+}
+
+TEST(ExhaustLambdaSensor, IsRefusedWithItsFieldByTheEngineThatHasIt) {
+  const auto refused = [](double pipe_m3, double lag_s) { return validate(four(pipe_m3, lag_s)); };
+  EXPECT_TRUE(accepted(refused(1, 100)));
+  EXPECT_TRUE(support::refuses(refused(1.01, 0.05), Reason::out_of_range, "lambda_sensor.pipe_m3"));
+  EXPECT_TRUE(support::refuses(refused(-1e-6, 0.05), Reason::negative, "lambda_sensor.pipe_m3"));
+  EXPECT_TRUE(support::refuses(refused(500e-6, std::nan("")), Reason::not_finite, "lambda_sensor.lag_s"));
+  EngineDefinition without = four(-1, -1);
+  without.lambda_sensor.in_use = false;
+  EXPECT_TRUE(accepted(validate(without))) << "not read";
+}
+
 /// What was in the gas, and what came and went: in a definition without a sensor nothing at all.
 TYPED_TEST(ExhaustLambda, IsZeroWithoutASensor) {
   using Real = TypeParam;

@@ -135,6 +135,23 @@ TEST(MisfireRules, ARandomShareIsWithinFourSigmaWhateverTheSeedAndTheCylinder) {
   EXPECT_EQ(numbers_of(played(rule_of(at_random(1)), kCycles)).size(), std::size_t{kCycles});
 }
 
+/// Seed and cylinder together are mixed by a bijection, so one pair of them gives 0, and xorshift32 of 0 is 0: a
+/// cylinder that drew it would misfire in every cycle.
+TEST(MisfireRules, NoSeedHasAllCyclesMisfire) {
+  EngineDefinition engine = diesel_495();
+  engine.layout = {};
+  engine.layout.cylinders = 8;
+  constexpr std::uint32_t kCylinder = 7;
+  constexpr int kSeed = 102533220;  // 16 seed + cylinder = 2^32 less the mixer's addend, 0x9E3779B9
+  static_assert(std::uint32_t{kSeed} * 16u + kCylinder + 0x9E3779B9u == 0);
+  engine.misfires[kCylinder] = at_random(0.25, kSeed);
+  MisfireRule<double> rules[kMaxCylinders];
+  TableTargets<double> targets;
+  targets.misfires = rules;
+  ASSERT_TRUE(accepted(tabulate(engine, {100e-6, {}}, targets)));
+  EXPECT_NEAR(static_cast<double>(numbers_of(played(rules[kCylinder], 100'000)).size()), 25'000, 4 * 137);
+}
+
 TEST(MisfireRules, WithoutASeedAreThoseOfSeedOne) {
   Misfire seedless;
   seedless.pattern = MisfirePattern::random, seedless.random_ratio = 0.5;

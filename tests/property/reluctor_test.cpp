@@ -17,6 +17,7 @@
 #include "support/both_reals.hpp"
 #include "support/engines.hpp"
 #include "support/status.hpp"
+#include "support/test_valves.hpp"
 
 namespace crankloop::reluctor_test {
 namespace {
@@ -169,6 +170,69 @@ TYPED_TEST(ReluctorOf, CrossesZeroAtTheCentreOfEachToothWithinTwoInTenMillionTur
     }
     ASSERT_NEAR(low, centre(tooth), 2e-7) << tooth;
   }
+}
+
+/// Every tooth has two neighbours, so that all have the same lobes.
+TYPED_TEST(ReluctorOf, AWheelWithoutAGapHasTheSameVoltageAtEachOfItsTeeth) {
+  EngineDefinition engine = sensed();
+  engine.triggers[0].gap_count = 0;
+  engine.reluctor.gain_V_s = 1;
+  const Rig<TypeParam, Turned> rig(engine, 100e-6);
+  const Rig<TypeParam, Turned> with_gap(sensed(), 100e-6);
+  constexpr double kRounding_V = sizeof(TypeParam) == 4 ? 1e-5 : 1e-7;  // of the angle, to 2^-32 of a turn, too
+  for (double of_place = -0.25; of_place < 0.75; of_place += 0.01) {
+    // Far from a gap a tooth has the lobes that it has on a wheel with one.
+    const double expected_V = 100 * with_gap.volts((20 + of_place) / kPlaces);
+    for (int place = 0; place < kPlaces; ++place)
+      ASSERT_NEAR(rig.volts((place + of_place) / kPlaces), expected_V, 100 * kRounding_V) << place << ", " << of_place;
+  }
+  EXPECT_NEAR(rig.volts(0), 1, 1e-3) << "the first tooth's edge: no gap makes it higher";
+}
+
+TYPED_TEST(ReluctorOf, TeethBehindTheLastGapAreThere) {
+  EngineDefinition engine = sensed();
+  engine.triggers[0].gaps[0] = {20, 2};  // and 38 teeth behind it
+  engine.reluctor.gain_V_s = 1;
+  const Rig<TypeParam, Turned> rig(engine, 100e-6);
+  for (int place = 0; place < kPlaces; ++place) {
+    const double before_V = rig.volts((place + 0.0) / kPlaces), behind_V = rig.volts((place + 0.5) / kPlaces);
+    const bool missing = place == 20 || place == 21;
+    EXPECT_NEAR(before_V, missing ? 0 : place == 22 ? 1.4 : 1, 2e-3) << place;
+    EXPECT_NEAR(behind_V, missing ? 0 : place == 19 ? -1.4 : -1, 2e-3) << place;
+  }
+}
+
+/// A camshaft turns at half the speed.
+TYPED_TEST(ReluctorOf, OnACamshaftTheSameWheelGivesHalfTheVoltageOverTwiceTheAngle) {
+  using Real = TypeParam;
+  EngineDefinition on_cam = sensed();
+  on_cam.triggers[0].shaft = TriggerShaft::cam;
+  const Rig<Real, Turned> crank(sensed(), 100e-6);
+  Rig<Real, Turned> cam(on_cam, 100e-6);
+  for (double turns = 0; turns < 1; turns += 1e-3) ASSERT_EQ(2 * cam.volts(turns), crank.volts(turns)) << turns;
+  // Each rise of the comparator is at the centre of a tooth, by the angle that the crank has turned.
+  const double rad_s = 400;
+  cam.in.speed_rad_s = static_cast<Real>(rad_s);
+  double worst = 0, peak_V = 0;
+  int rises = 0;
+  for (int tick = 0; tick < 5000; ++tick) {
+    const auto& out = cam.engine.step(cam.in);
+    ASSERT_EQ(out.faults, 0u);
+    for (const Real volts : out.reluctor_V) peak_V = std::fmax(peak_V, static_cast<double>(volts));
+    for (std::uint32_t e = 0; e < out.comparator.edge_count; ++e) {
+      if (out.comparator.edge[e].level == 0) continue;
+      const double crank_deg = (tick * 100e-6 + static_cast<double>(out.comparator.edge[e].time_s)) * rad_s * 180 / kPi;
+      const double place = (crank_deg - 246) / 720 * kPlaces - 0.25;
+      const double near = std::round(place);
+      worst = std::fmax(worst, std::fabs(place - near));
+      const int tooth = ((static_cast<int>(near) % kPlaces) + kPlaces) % kPlaces;
+      ASSERT_LT(tooth, 58) << "in the gap at " << crank_deg;
+      ++rises;
+    }
+  }
+  EXPECT_LT(worst, 2e-3);  // a straight line between two of 16 samples a tick, which are 0.02 places apart
+  EXPECT_NEAR(rises, 58 * 0.5 * rad_s / (4 * kPi), 3);
+  EXPECT_NEAR(peak_V, 0.01 * 1.4 * rad_s / 2, 0.01) << "beside the gap: gain by the cam's speed by gap_lobe_ratio";
 }
 
 TYPED_TEST(ReluctorOf, IntegralOverATurnIsZeroWhateverTheRunOut) {
@@ -383,6 +447,100 @@ TEST(Reluctor, ARestoredRunGoesOnWithTheSameEdges) {
   }
 }
 
+/// A cam wheel turns half as fast, and its voltage goes with that: at twice the speed of the crank it is the same
+/// wheel.
+TEST(Reluctor, AtACamWheelIsThatAtACrankWheelOfTwiceTheSpeed) {
+  EngineDefinition on_cam = sensed();
+  on_cam.triggers[0].shaft = TriggerShaft::cam;
+  on_cam.triggers[0].first_tooth_deg *= 2;
+  Rig<double, Turned> crank_wheel(sensed(), 100e-6), cam_wheel(on_cam, 100e-6);
+  crank_wheel.in.speed_rad_s = 150, cam_wheel.in.speed_rad_s = 300;
+  std::uint32_t edges = 0;
+  double largest_V = 0;
+  for (int tick = 0; tick < 2000; ++tick) {
+    const auto &slow = crank_wheel.engine.step(crank_wheel.in), &fast = cam_wheel.engine.step(cam_wheel.in);
+    for (std::uint32_t i = 0; i < Turned::reluctor_samples; ++i) {
+      ASSERT_NEAR(fast.reluctor_V[i], slow.reluctor_V[i], 1e-6) << tick;
+      largest_V = std::fmax(largest_V, slow.reluctor_V[i]);
+    }
+    ASSERT_EQ(fast.comparator.edge_count, slow.comparator.edge_count) << tick;
+    ASSERT_EQ(fast.comparator.level, slow.comparator.level) << tick;
+    edges += slow.comparator.edge_count;
+  }
+  EXPECT_GT(largest_V, 1);
+  EXPECT_GT(edges, 500u);
+}
+
+/// Where the threshold has fallen below the sample before, as after a long pause, no crossing lies between two samples:
+/// the edge still comes between their times.
+TEST(Reluctor, AnEdgeLiesBetweenItsSamplesWhateverTheThresholdWasBefore) {
+  Rig<double, Turned> rig(sensed(), 100e-6);
+  rig.in.speed_rad_s = 300;
+  int falls = 0;
+  const double arms_V = rig.table().least_V;
+  for (int tick = 0; tick < 500; ++tick) {
+    auto before = rig.engine.state();
+    const double first_V = rig.engine.step(rig.in).reluctor_V[0];
+    const auto after = rig.engine.state();
+    if (first_V < 2 * arms_V) continue;
+    ++falls;
+    before.comparator_level = 1, before.comparator_armed = 0, before.sensor_last_peak_V = 0;
+    const double spacing_s = 100e-6 / Turned::reluctor_samples;
+    const struct {
+      double before_V, edge_s;
+    } cases[] = {{0, spacing_s * arms_V / first_V},   // rises through the threshold
+                 {first_V, spacing_s},                // as high all the time
+                 {(arms_V + first_V) / 2, 0},         // beyond it already, and rising
+                 {first_V + 2 * arms_V, spacing_s}};  // beyond it, and falling toward it
+    for (const auto& c : cases) {
+      auto state = before;
+      state.sensor_V = c.before_V;
+      ASSERT_TRUE(accepted(rig.engine.restore(state)));
+      const auto& out = rig.engine.step(rig.in);
+      ASSERT_GE(out.comparator.edge_count, 1u);
+      EXPECT_EQ(out.comparator.edge[0].level, 0u);
+      EXPECT_NEAR(out.comparator.edge[0].time_s, c.edge_s, 1e-15) << c.before_V;
+    }
+    ASSERT_TRUE(accepted(rig.engine.restore(after)));
+  }
+  EXPECT_GT(falls, 10);
+}
+
+TEST(Reluctor, AnArmedComparatorThatIsUpAlreadyShowsNoSecondRise) {
+  Rig<double, Turned> rig(sensed(), 100e-6);
+  rig.in.speed_rad_s = 300;
+  for (int tick = 0; tick < 300 || rig.engine.state().comparator_armed == 0; ++tick) rig.engine.step(rig.in);
+  auto state = rig.engine.state();
+  ASSERT_EQ(state.comparator_level, 0u);
+  state.comparator_level = 1;
+  ASSERT_TRUE(accepted(rig.engine.restore(state)));
+  std::uint32_t level = 1, edges = 0;
+  for (int tick = 0; tick < 100; ++tick) {
+    const auto& out = rig.engine.step(rig.in);
+    for (std::uint32_t e = 0; e < out.comparator.edge_count; ++e, ++edges)
+      ASSERT_EQ(out.comparator.edge[e].level, level ^= 1u) << tick;
+    ASSERT_EQ(out.comparator.level, level) << tick;
+    ASSERT_EQ(rig.engine.state().comparator_level, level) << tick;
+  }
+  EXPECT_GT(edges, 20u);
+}
+
+TEST(Reluctor, ThePauseAtStandstillStaysAtItsLargestCountAndThePeakForgotten) {
+  Rig<double, Turned> rig(sensed(), 100e-6);
+  rig.in.speed_rad_s = 300;
+  for (int tick = 0; tick < 300 || rig.engine.state().comparator_armed != 0; ++tick) rig.engine.step(rig.in);
+  auto state = rig.engine.state();
+  ASSERT_GT(state.sensor_last_peak_V, rig.table().least_V);
+  state.comparator_quiet_ticks = ~std::uint32_t{0} - 1;
+  ASSERT_TRUE(accepted(rig.engine.restore(state)));
+  rig.in.speed_rad_s = 0;
+  for (int tick = 0; tick < 3; ++tick) {
+    rig.engine.step(rig.in);
+    EXPECT_EQ(rig.engine.state().comparator_quiet_ticks, ~std::uint32_t{0}) << tick;
+    EXPECT_EQ(rig.engine.state().sensor_last_peak_V, 0) << tick;
+  }
+}
+
 TEST(Reluctor, AJumpOfTheMeasuredAngleHasNoVoltageAndNoEdge) {
   Rig<float, Measured> rig(sensed(), 100e-6);
   std::uint32_t edges = 0;
@@ -474,12 +632,36 @@ TEST(Reluctor, WhatNoWheelCanHaveIsRefusedByName) {
   EXPECT_TRUE(support::refuses(refusal([](E& e) { e.reluctor.wheel = 1; }), Reason::out_of_range, "reluctor.wheel"));
   EXPECT_TRUE(support::refuses(refusal([](E& e) { e.triggers[0].places = 121, e.triggers[0].gap_count = 0; }),
                                Reason::inconsistent, "reluctor.wheel"));
+  EXPECT_TRUE(support::refuses(refusal([](E& e) {
+                                 static constexpr double kEdges_deg[] = {10, 20, 100, 110};
+                                 e.triggers[0].pattern = TriggerPattern::edges;
+                                 e.triggers[0].edges_deg = kEdges_deg, e.triggers[0].edge_count = 4;
+                               }),
+                               Reason::inconsistent, "reluctor.wheel"));
+  const auto on_cam = [](E& e, int train) {
+    e.train_count = 1;
+    e.trains[0] = valve_test::ohc_125_train();
+    e.triggers[0].shaft = TriggerShaft::cam, e.triggers[0].train = train;
+  };
+  EXPECT_TRUE(refusal([&](E& e) { on_cam(e, -1); }).ok());
+  EXPECT_TRUE(support::refuses(refusal([&](E& e) { on_cam(e, 0); }), Reason::inconsistent, "reluctor.wheel"))
+      << "a phaser moves it";
   EXPECT_TRUE(support::refuses(refusal([](E& e) { e.triggers[0].tooth_ratio = 0.85; }), Reason::inconsistent,
                                "reluctor.reach_ratio"));
   EXPECT_TRUE(
       support::refuses(refusal([](E& e) { e.reluctor.gain_V_s = 0; }), Reason::not_positive, "reluctor.gain_V_s"));
   EXPECT_TRUE(support::refuses(refusal([](E& e) { e.reluctor.gap_lobe_ratio = 2.5; }), Reason::out_of_range,
                                "reluctor.gap_lobe_ratio"));
+}
+
+TEST(Reluctor, ADelayOfMoreThanATickIsRefused) {
+  EngineDefinition engine = sensed();
+  engine.reluctor.delay_s = 100e-6;
+  TableStorage<float, Turned> storage;
+  EXPECT_TRUE(accepted(storage.build(engine, {100e-6})));
+  EXPECT_TRUE(support::refuses(storage.build(engine, {99e-6}), Reason::out_of_range, "reluctor.delay_s"));
+  engine.reluctor.wheel = -1;
+  EXPECT_TRUE(accepted(storage.build(engine, {99e-6}))) << "no sensor, nothing is late";
 }
 
 }  // namespace

@@ -232,5 +232,23 @@ TEST(SensorFault, IsRefusedWhereItIsNeverOnOrHasNoRangeToReadFrom) {
   refused(fault, "sensor_fault.delay_s");
 }
 
+TEST(SensorFault, IsRefusedWhereNoSensorAndNoWireHasItsNumber) {
+  SensorFault fault;
+  fault.end_s = 1;
+  for (int sensor = 0; sensor < kControllerSensors; ++sensor) {
+    fault.sensor = static_cast<ControllerSensor>(sensor);
+    EXPECT_TRUE(accepted(validate(fault))) << sensor;
+  }
+  for (const int none : {kControllerSensors, 255}) {
+    fault.sensor = static_cast<ControllerSensor>(none);
+    EXPECT_TRUE(support::refuses(validate(fault), Reason::out_of_range, "sensor_fault.sensor")) << none;
+  }
+  fault.sensor = ControllerSensor::coolant;
+  for (const int none : {static_cast<int>(SensorWire::shorted) + 1, 255}) {
+    fault.wire = static_cast<SensorWire>(none);
+    EXPECT_TRUE(support::refuses(validate(fault), Reason::out_of_range, "sensor_fault.wire")) << none;
+  }
+}
+
 }  // namespace
 }  // namespace crankloop::sensor_faults_test

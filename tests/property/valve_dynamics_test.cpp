@@ -597,5 +597,34 @@ TEST(ValveOfAnyDesign, IsRefusedOrBoundedAndNearTheReference) {
   EXPECT_GT(opened, 20);
 }
 
+struct LiftAlone : Scene {
+  static constexpr ValveModel valves = ValveModel::elastic;
+};
+
+/// Of a flat cam under a wide lash only the top reaches the valve: so few degrees that a tick turns over all of them,
+/// although one tick's lift is smooth enough for a step. The valve is pushed all the same.
+TEST(ValveUnderAWideLash, IsPushedByATopThatATickTurnsOver) {
+  ValveTrain train = ohc_125_train();
+  train.cam = support::polynomial_cam(1e-3, 150, {2, 4, 6, 8});
+  train.cam.full_lift_deg = 450;
+  train.rocker = support::direct_rocker(25e-3, 0.98e-3);
+  train.valve.rocker_inertia_kg_m2 = 0;
+  const TickOptions options{2e-3, {Integrator::exponential, 10 * kUm}};
+  for (const double start_deg : {7.0, 21.0}) {
+    SideBySide<double, LiftAlone> both(train, options, start_deg);
+    const double skip_deg = both.rig.curve().skip_deg, cubic_deg = both.rig.motion().cubic_deg;
+    ASSERT_GT(cubic_deg, 1.9 * skip_deg);
+    const double turn_deg = 1.8 * skip_deg;
+    double worst_m = 0, highest_m = 0;
+    for (int i = 0; i < 100; ++i) {
+      worst_m = std::max(worst_m, both.step(2 * turn_deg * kRadPerDeg / options.tick_s));
+      highest_m = std::max(highest_m, both.reference.y);
+      EXPECT_EQ(both.rig.engine().output().faults, 0u);
+    }
+    EXPECT_GT(highest_m, 1 * kUm);
+    EXPECT_LT(worst_m, 0.01 * kUm);
+  }
+}
+
 }  // namespace
 }  // namespace crankloop::valve_dynamics_test

@@ -122,6 +122,17 @@ TYPED_TEST(Verify, NamesTheGroupOfANumberThatIsNone) {
   EXPECT_TRUE(support::refuses(verify(*this->engine_), Reason::not_finite, "state.drive"));
 }
 
+/// restore() takes no state of other tables, so only a memory fault makes one.
+TYPED_TEST(Verify, RefusesAStateWhoseFingerprintIsNotThatOfTheTables) {
+  auto& state = const_cast<crankloop::State<typename TypeParam::Real, typename TypeParam::S>&>(this->engine_->state());
+  for (int bit = 0; bit < 64; ++bit) {
+    state.fingerprint ^= std::uint64_t{1} << bit;
+    EXPECT_TRUE(support::refuses(verify(*this->engine_), Reason::other_tables, "state.fingerprint")) << bit;
+    state.fingerprint ^= std::uint64_t{1} << bit;
+    EXPECT_TRUE(accepted(verify(*this->engine_))) << bit;
+  }
+}
+
 TYPED_TEST(Verify, RefusesAnEngineWithoutTables) {
   const auto engine = std::make_unique<Engine<typename TypeParam::Real, typename TypeParam::S>>();
   EXPECT_TRUE(support::refuses(verify(*engine), Reason::missing_table, "tables"));

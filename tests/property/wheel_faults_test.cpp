@@ -35,6 +35,9 @@ struct Turned : Scene {
   static constexpr Count triggers = exactly<2>;
   static constexpr std::uint32_t wheel_faults = 4;
 };
+struct Measured : Turned {
+  static constexpr CrankGiven crank = CrankGiven::phase;
+};
 struct Free : Turned {
   static constexpr CrankGiven crank = CrankGiven::torque;
   static constexpr bool rod_inertia = true;
@@ -341,6 +344,35 @@ TEST(WheelFaults, OfSeveralTheFirstShowsAndAnInputBitSwitchesThem) {
   EXPECT_EQ(after(~0u << 6), 0u);
 }
 
+/// A fault that comes or goes in the tick of a jump changes the level, and has no edge: nobody knows when.
+TEST(WheelFaults, ThatComeAndGoWhereTheMeasuredAngleJumpsHaveNoEdge) {
+  EngineDefinition engine = with_two_wheels();
+  engine.wheel_fault_count = 1;
+  engine.wheel_faults[0] = fault_of(0);
+  engine.wheel_faults[0].end_s = 0, engine.wheel_faults[0].input_bit = 2, engine.wheel_faults[0].inverted = true;
+  const auto run = rig<double, Measured>(engine);
+  std::uint32_t level = 0;
+  for (int tick = 0; tick < 400; ++tick) {
+    const bool changes = tick % 40 == 20, jumps = changes && tick % 80 == 20;
+    if (changes) run->in.wheel_faults ^= 1u << 2;
+    run->in.crank += Phase::from_cycles(jumps ? 0.3 : 1e-5);
+    const auto& out = run->step();
+    const auto& seen = out.faulty_trigger[0];
+    ASSERT_EQ(out.faults, jumps ? std::uint32_t{kFaultPhaseJump} : 0u) << tick;
+    ASSERT_EQ(seen.level, out.trigger[0].level ^ (run->in.wheel_faults != 0 ? 1u : 0u)) << tick;
+    if (jumps) {
+      ASSERT_EQ(seen.edge_count, 0u) << tick;
+    } else if (tick > 0) {
+      ASSERT_EQ((level ^ seen.edge_count) & 1u, seen.level) << tick;
+      if (changes) {
+        ASSERT_GE(seen.edge_count, 1u) << tick;
+        ASSERT_EQ(seen.edge[0].time_s, 0) << tick;
+      }
+    }
+    level = seen.level;
+  }
+}
+
 /// Faults of every kind, on at random.
 [[nodiscard]] EngineDefinition with_many_faults() {
   EngineDefinition engine = with_two_wheels();
@@ -426,6 +458,18 @@ TEST(WheelFaults, MoreEdgesThanThereIsRoomForAreCountedAndTold) {
     }
     last = signal.level;
   }
+}
+
+TEST(WheelFaults, AnExtraToothOnAWheelOfAsManyEdgesAsThereIsRoomForIsRefused) {
+  EngineDefinition engine = with_two_wheels();
+  engine.triggers[0] = toothed(TriggerShaft::crank, kMaxTriggerEdges / 2, {}, 0);
+  engine.wheel_fault_count = 1;
+  WheelFault& fault = engine.wheel_faults[0] = fault_of(0);
+  fault.extra_tooth_deg = 0.7, fault.extra_width_deg = 0.1;  // in the space behind the first tooth
+  TableStorage<float, Turned> storage;
+  EXPECT_TRUE(refuses(storage.build(engine, {kTick_s, {}}), Reason::too_many_points, "fault.extra_tooth_deg", 0));
+  fault.missing_tooth = 1;  // makes room
+  EXPECT_TRUE(accepted(storage.build(engine, {kTick_s, {}})));
 }
 
 TEST(WheelFaults, MoreThanTheSceneHasRoomForAreRefusedByBuildAndByInit) {

@@ -131,6 +131,21 @@ TEST(CamRows, NameTheRowThatWasMisread) {
   }
 }
 
+/// A foot that was misread by 0.1 mm before the lobe begins: with half as much again as the smallest residual the lobe
+/// is trimmed so that none keeps it. What is proposed is enough.
+TEST(CamRows, AutomaticSmoothingIsOneThatALobeKeeps) {
+  Measured table(true_cams()[0], -180, 176, 4);
+  ASSERT_EQ(table.points[26].cam_deg, -76);
+  table.points[26].lift_m += 100 * kUm;
+  const CamRows rows = survey_of(table);
+  CamProfile smooth;
+  EXPECT_TRUE(accepted(smooth.init(table.cam(rows.smallest_m))));
+  EXPECT_FALSE(smooth.init(table.cam(54 * kUm)).ok()) << "1.5 smallest_m, to two digits";
+  EXPECT_NEAR(1.5 * rows.smallest_m, 54 * kUm, 1 * kUm);
+  EXPECT_GT(rows.automatic_m, 54 * kUm);
+  EXPECT_TRUE(accepted(smooth.init(table.cam(rows.automatic_m))));
+}
+
 TEST(CamRows, AutomaticSmoothingComesNearTheBestThatHindsightChooses) {
   Random random;
   const std::vector<CamProfile> cams = true_cams();
@@ -178,6 +193,49 @@ TEST(CamRows, AreRefusedWhereTheyHaveNoLobeOnABaseCircle) {
   Measured wrong(truth, -180, 180, 1);
   wrong.points[3].cam_deg = -179;
   EXPECT_TRUE(refuses(survey_rows(wrong.cam(0), rows), Reason::not_increasing, "cam.points", 3));
+}
+
+TEST(CamRows, ThatEndAtTheirPeakAreRefusedOnThatSide) {
+  const CamProfile truth = true_cams()[0];
+  CamRows rows;
+  EXPECT_TRUE(refuses(survey_rows(Measured(truth, -180, 0, 1).cam(0), rows), Reason::inconsistent, "cam.points", 180));
+  EXPECT_TRUE(refuses(survey_rows(Measured(truth, 0, 180, 1).cam(0), rows), Reason::inconsistent, "cam.points", 0));
+}
+
+/// A gauge that was not set to zero: the lobe is 0 on the base circle, so nothing comes nearer to these rows.
+TEST(CamRows, ThatAreAllTooHighAllowTheLobeThatMuch) {
+  for (const double high_um : {5.0, 30.0, 49.0}) {
+    Measured table(true_cams()[0], -180, 180, 1);
+    for (CamPoint& point : table.points) point.lift_m += high_um * kUm;
+    const CamRows rows = survey_of(table);
+    EXPECT_GE(rows.smallest_m, high_um * kUm);
+    EXPECT_LE(rows.smallest_m, 1.03 * high_um * kUm) << "a lobe with its peak as much lower fits within it";
+    EXPECT_LT(rows.scatter_m, 0.01 * kUm) << "neighbours agree";
+    CamProfile smooth;
+    EXPECT_TRUE(accepted(smooth.init(table.cam(rows.automatic_m))));
+  }
+  Measured higher(true_cams()[0], -180, 180, 1);
+  for (CamPoint& point : higher.points) point.lift_m += 51 * kUm;
+  CamRows rows;
+  EXPECT_TRUE(refuses(survey_rows(higher.cam(0), rows), Reason::inconsistent, "cam.points", 0));
+}
+
+/// Measured until 30 um of a lobe of 1 mm are left, more than a hundredth of it: the last three rows have no three
+/// neighbours behind them, and the others tell the noise.
+TEST(CamRows, ThatEndBeforeTheLobeDoesTellTheirNoiseAllTheSame) {
+  Random random;
+  const CamProfile truth = profile_of(support::polynomial_cam(1e-3, 60, {2, 6, 8, 10}));
+  double closes_deg = 0;  // where 30 um are left
+  while (truth.at(closes_deg * kRadPerDeg).lift_m > 30 * kUm) closes_deg += 0.5;
+  double mean_um = 0;
+  constexpr int kTables = 10;
+  for (int i = 0; i < kTables; ++i) {
+    const Measured table = Measured(truth, -180, closes_deg, 0.5).off_by_normal(1 * kUm, random);
+    const CamRows rows = survey_of(table);
+    mean_um += rows.scatter_m / kUm / kTables;
+    EXPECT_GE(rows.smallest_m, 25 * kUm) << "the end of the table is taken for the base circle";
+  }
+  EXPECT_NEAR(mean_um, 1, 0.2) << random.trace(0);
 }
 
 TEST(CamRows, OfAFlatTableHaveNoLobe) {

@@ -777,6 +777,15 @@ void expect_none_or_positive(const char* field, double Part::*member, double mos
   }
 }
 
+TEST(CrankshaftDefinition, HasFrictionByAnyOfItsParts) {
+  EXPECT_FALSE(Friction{}.any());
+  for (double Friction::*part : {&Friction::constant_Pa, &Friction::linear_Pa_s, &Friction::quadratic_Pa_s2}) {
+    Friction friction;
+    friction.*part = 1e-9;
+    EXPECT_TRUE(friction.any());
+  }
+}
+
 TEST(CrankshaftDefinition, RefusesFrictionLoadAndStarterOutsideTheirRangesByName) {
   expect_none_or_positive("friction.constant_Pa", &Friction::constant_Pa, 1e7);
   expect_none_or_positive("friction.linear_Pa_s", &Friction::linear_Pa_s, 1e6);

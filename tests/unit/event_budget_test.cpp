@@ -137,6 +137,35 @@ TYPED_TEST(EventBudgetOf, TellsEveryTickThatItDidNotSufficeFor) {
   }
 }
 
+/// Valves that fly beyond any lift, as bad numbers may make them, are put back at rest, on their seats or onto their
+/// cams: also those that the budget does not suffice for.
+TYPED_TEST(EventBudgetOf, PutsBackValvesThatAreTooFarWithinItAndBeyondIt) {
+  using Real = TypeParam;
+  const auto few = TestFixture::tables(10e-6, 3);
+  typename TestFixture::Engine engine;
+  ASSERT_TRUE(accepted(engine.init(few->tables())));
+  typename TestFixture::Engine::Input in;
+  in.speed_rad_s = Real{200};
+  while (engine.state().valve_lift_m[0] < Real(5e-3)) engine.step(in);
+  typename TestFixture::State state = engine.state();
+  for (std::uint32_t v = 0; v < 8; ++v)
+    state.valve_lift_m[v] = Real(0.999), state.valve_velocity_m_s[v] = Real(1e4), state.valve_regime[v] = kTrainOn;
+  ASSERT_TRUE(accepted(engine.restore(state)));
+  const auto& out = engine.step(in);
+  EXPECT_EQ(out.faults, std::uint32_t{kFaultEventBudget});
+  for (std::uint32_t t = 0; t < 2; ++t) {
+    const auto& curve = few->tables().lift_curves[t];
+    const Real cam_m = curve.read(curve.cell(engine.state().phase.units(), 0)).lift_m;
+    ASSERT_EQ(cam_m > 0, t == 0) << "the other cam is away";
+    for (std::uint32_t k = 0; k < 4; ++k) {
+      EXPECT_EQ(out.valve[t][k].lift_m, t == 0 ? cam_m : Real{0}) << t << ' ' << k;
+      EXPECT_EQ(out.valve[t][k].velocity_m_s, 0) << t << ' ' << k;
+    }
+  }
+  for (int i = 0; i < 100; ++i) engine.step(in);
+  EXPECT_EQ(engine.output().faults, 0u);
+}
+
 /// Valves that move alike are late by turns: none is always the one that the budget does not suffice for.
 TYPED_TEST(EventBudgetOf, IsSpentOnAnotherValveFirstInEveryTick) {
   using Real = TypeParam;

@@ -273,6 +273,86 @@ TEST(EventLocator, RecordsTheTickPartByPart) {
   EXPECT_GT(for_want_of_budget, 50);
 }
 
+/// The cam's speed may change between two ticks, and with it whether the train pushes: then the contacts with which the
+/// tick before ended are not those that this one begins with.
+TEST(EventLocator, BeginsATickWithTheContactsThatItsStartRequires) {
+  const ValveTrain train = ohc_125_train();
+  const SingleMass mass(train.valve, train.rocker, lift_of(train).largest_lift_m());
+  constexpr double kTick_s = 10e-6;
+  const detail::ValveMotion<double> motion = motion_for(body_of(train), kTick_s);
+  const detail::LiftCurve<double> curve{};
+  Random random;
+  int calm = 0;
+  for (int i = 0; i < 3000; ++i) {
+    SCOPED_TRACE(random.trace(i));
+    const Draw draw = drawn(random, mass, kTick_s);
+    const Span& tick = draw.step;
+    const std::uint32_t now = detail::required_contacts(motion, draw.start, tick.from, tick.cam.deg_per_s);
+    const std::uint32_t before = now ^ kTrainOn;
+    const Brute truth = brute_force(mass, draw.start, tick.gas, kTick_s, 200,
+                                    [&tick](double x) { return cam_within(tick, x, kTick_s); });
+    if (truth.changes != 0) continue;
+    ++calm;
+    const auto plain = stepped(motion.fine[before], draw.start, tick.from, tick.to, tick.cam.deg, tick.gas);
+    const auto run_with = [&](std::uint32_t units, Changes& changes, detail::EventBudget& budget) {
+      budget = {units, false};
+      return Locator(motion, curve, budget, changes).run({draw.start, before}, plain, tick, 0, std::int64_t{1} << 50);
+    };
+    detail::EventBudget budget{};
+    Changes located;
+    const auto end = run_with(100, located, budget);
+    EXPECT_FALSE(budget.exceeded);
+    EXPECT_NEAR(end.state.lift_m, truth.end.lift_m, 1e-9);
+    EXPECT_NEAR(end.state.velocity_m_s, truth.end.velocity_m_s, 1e-3);
+
+    Changes none_at_start;
+    const auto beyond = run_with(detail::kUnitsOfSearch, none_at_start, budget);
+    EXPECT_TRUE(budget.exceeded) << "a search more than there is";
+    EXPECT_EQ(beyond.state.lift_m, plain.state.lift_m) << "as the tick before ended";
+    EXPECT_EQ(beyond.regime, detail::required_contacts(motion, plain.state, tick.to, tick.cam.deg_per_s));
+  }
+  EXPECT_GT(calm, 500);
+}
+
+/// A train that touches at the end of a step by less than a valve at rest may be off needs no location: without budget
+/// for it nothing is amiss, be it the step's first change or one after another. A larger one is told.
+TEST(EventLocator, ExceedsItsBudgetByNoTouchOfATrainThatIsNegligible) {
+  const ValveTrain train = ohc_125_train();
+  constexpr double kTick_s = 10e-6;
+  const detail::ValveMotion<double> motion = motion_for(body_of(train), kTick_s);
+  const detail::LiftCurve<double> curve{};
+  const double rest_m = motion.fine[kSeatOn].rest_m;
+  for (const bool lands_before : {false, true}) {
+    Span step{};
+    step.cam = {0.25, 0.25 / kTick_s};
+    const double fall_m_s = 0.3;
+    const double seat_m = motion.body.seat_compression_m;
+    const ValveState<double> start{lands_before ? seat_m + 0.3 * fall_m_s * kTick_s : 3e-3, -fall_m_s};
+    const auto plain = stepped(motion.fine[0], start, step.from, step.to, step.cam.deg, step.gas);
+    const auto run_with = [&](double cam_m, std::uint32_t units, Changes& located, detail::EventBudget& budget) {
+      const double rise_m_s = 0.5;
+      step.from = {cam_m - rise_m_s * kTick_s, rise_m_s / step.cam.deg_per_s};
+      step.to = {cam_m, rise_m_s / step.cam.deg_per_s};
+      budget = {units, false};
+      return Locator(motion, curve, budget, located).run({start, 0}, plain, step, 0, std::int64_t{1} << 50);
+    };
+    detail::EventBudget budget{};
+    Changes landing;
+    const auto without_cam = run_with(-1e-3, 100, landing, budget);
+    ASSERT_EQ(without_cam.regime, lands_before ? kSeatOn : 0u);
+    ASSERT_EQ(landing.count, lands_before ? 1 : 0);
+    const std::uint32_t units = lands_before ? detail::kUnitsOfEvent + detail::kUnitsOfSearch : detail::kUnitsOfLook;
+    for (const double part : {0.5, 2.0}) {
+      Changes located;
+      const auto end = run_with(without_cam.state.lift_m + part * rest_m, units, located, budget);
+      EXPECT_EQ(budget.exceeded, part > 1) << lands_before;
+      EXPECT_EQ(end.regime, without_cam.regime | kTrainOn);
+      EXPECT_EQ(end.state.lift_m, without_cam.state.lift_m) << "the touch counts at the end";
+      EXPECT_EQ(located.count, lands_before ? 2 : 1);
+    }
+  }
+}
+
 /// Valve and cam are braked alike, and the force between them goes through zero and back within the step: so shortly
 /// that at both ends of it nothing has changed.
 TEST(EventLocator, FindsATrainThatPartsAndTouchesWithinAFineStepHoweverTheCamIsBraked) {

@@ -465,6 +465,28 @@ TEST(SynthesisedDiagram, AnyMeanEffectivePressureFromTheMotoredOneOnIsMet) {
   EXPECT_TRUE(refuses(diagram.init(crank, wiebe_pressure(less)), Reason::no_solution, "pressure.wiebe.net_mep_Pa"));
 }
 
+/// A gas that expands by a larger exponent than air gives less than the motored cycle before it has any heat: nothing
+/// lies between them and less than both.
+TEST(SynthesisedDiagram, LessThanWithoutHeatIsNotMetByMotoring) {
+  const Crank crank = support::diesel_495_crank();
+  WiebeDiagram w = wiebe_495();
+  w.compression_exponent = w.motored_expansion_exponent = 1.3;
+  w.expansion_exponent = 1.45;
+  const IndicatorDiagram usual = diagram_of(crank, wiebe_pressure(w));
+  const double motored_Pa = net_mep_Pa(crank, usual, &IndicatorDiagram::motored_Pa);
+  WiebeDiagram hardly = w;
+  hardly.heat_given = true, hardly.heat_J = 1e-6;
+  const double unheated_Pa = net_mep_Pa(crank, diagram_of(crank, wiebe_pressure(hardly)), &IndicatorDiagram::full_Pa);
+  ASSERT_LT(unheated_Pa, motored_Pa - 5e3);
+  IndicatorDiagram diagram;
+  w.net_mep_Pa = unheated_Pa - 1e3;
+  EXPECT_TRUE(refuses(diagram.init(crank, wiebe_pressure(w)), Reason::no_solution, "pressure.wiebe.net_mep_Pa"));
+  w.net_mep_Pa = unheated_Pa + 1e3;
+  ASSERT_TRUE(accepted(diagram.init(crank, wiebe_pressure(w))));
+  EXPECT_GT(diagram.heat_J(), 0);
+  EXPECT_NEAR(net_mep_Pa(crank, diagram, &IndicatorDiagram::full_Pa), w.net_mep_Pa, 0.2);
+}
+
 TEST(SynthesisedDiagram, WithoutHeatIsTheMotoredOne) {
   WiebeDiagram w = wiebe_495();
   w.heat_given = true;

@@ -234,6 +234,30 @@ TEST(SpringStep, TellsOfTheSpringsThatATickIsTooLongFor) {
   }
 }
 
+TEST(SpringStep, OfAnActiveMassRingsAtItsFrequencyWhateverItsCoilsAtRestWeigh) {
+  // Of a spring of 78 g 45 g move: pi n sqrt(c / m), and modes of 2 m / (pi n)^2.
+  constexpr double kActive_kg = 45e-3;
+  ValveTrain train = nested_train(2);
+  train.valve.spring_kg = 96e-3;
+  train.valve.spring_active_kg = kActive_kg;
+  ASSERT_TRUE(accepted(validate(train.valve)));
+  const double rate_N_m = train.valve.spring_N_m - 15e3;  // of the outer one
+  const double kPi2 = support::kPi * support::kPi;
+  const double outer_rad_s = 2 * support::kPi * std::sqrt(rate_N_m / kActive_kg);
+  const double inner_rad_s = 2 * support::kPi * std::sqrt(15e3 / 18e-3);
+  SurgeOfValve surge;
+  ASSERT_TRUE(accepted(surge_of(train.valve, 20e-6, surge)));
+  EXPECT_NEAR(surge.highest_rad_s, std::max(outer_rad_s, inner_rad_s), 1e-9 * outer_rad_s);
+  EXPECT_NEAR(surge.moving_kg, 2 / kPi2 * (1 + 1.0 / 4) * (kActive_kg + 18e-3), 1e-15);
+  SurgingSpring springs[2];
+  ASSERT_EQ(springs_of(train.valve, springs), 2);
+  EXPECT_NEAR(surge_frequency_rad_s(springs[0]), outer_rad_s / 2, 1e-9 * outer_rad_s);
+  // Where none is given all of it moves.
+  train.valve.spring_active_kg = 0;
+  ASSERT_TRUE(accepted(surge_of(train.valve, 20e-6, surge)));
+  EXPECT_NEAR(surge.moving_kg, 2 / kPi2 * (1 + 1.0 / 4) * 96e-3, 1e-15);
+}
+
 TEST(SpringStep, WithoutModesIsTheSpringThatFollows) {
   Rig<float, tick_test::OneValveWithGas> plain(ohc_125_train(), {20e-6, {}});
   Rig<float, SurgingWithGas> none(ohc_125_train(), {20e-6, {}});

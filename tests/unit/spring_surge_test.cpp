@@ -210,6 +210,13 @@ TEST(SpringSurge, RefusesWhatItCannotStep) {
       {with([nan](auto& s) { s.active_kg = nan; }), kTick_s, "spring.active_kg", Reason::not_positive},
       {with([](auto& s) { s.damping_ratio = 1; }), kTick_s, "spring.damping_ratio", Reason::out_of_range},
       {with([nan](auto& s) { s.damping_ratio = nan; }), kTick_s, "spring.damping_ratio", Reason::out_of_range},
+      {with([](auto& s) { s.rate_N_m = std::numeric_limits<double>::infinity(); }), kTick_s, "spring.rate_N_m",
+       Reason::not_positive},
+      {with([](auto& s) {
+         s.rate_N_m = std::numeric_limits<double>::denorm_min();
+         s.active_kg = 1e9;  // no frequency is left of them
+       }),
+       kTick_s, "tick_s", Reason::out_of_range},
       {good, 0, "tick_s", Reason::out_of_range},
       {good, 400e-6, "tick_s", Reason::out_of_range}};
   for (const Case& c : cases) {

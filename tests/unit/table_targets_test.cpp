@@ -12,6 +12,8 @@
 #include <numeric>
 #include <vector>
 
+#include <crankloop/tabulate/cam_contact.hpp>
+#include <crankloop/tabulate/cam_profile.hpp>
 #include <crankloop/tabulate/elementary.hpp>
 #include <crankloop/tabulate/indicator_diagram.hpp>
 #include <crankloop/tabulate/tabulate.hpp>
@@ -23,6 +25,7 @@
 #include "support/status.hpp"
 #include "support/test_valves.hpp"
 #include "support/units.hpp"
+#include "tabulate/curve_fit.hpp"
 #include "tabulate/gas_quantities.hpp"
 
 namespace crankloop::table_targets_test {
@@ -100,6 +103,65 @@ TYPED_TEST(TableTargetsOf, APartWithoutWhatBelongsToItAreRefusedByItsName) {
   EXPECT_TRUE(refuses(answer(contacts), Reason::missing_table, "targets.cam_sliding"));
   contacts.cam_sliding = &ratio, contacts.cam_contacts = &contact;
   EXPECT_TRUE(refuses(answer(contacts), Reason::missing_table, "targets.cam_contact_segments"));
+  WheelFaultRules<Real> faults{};
+  WheelFaultRule<Real> rule{};
+  TriggerTrack track{};
+  const auto edges = std::make_unique<std::uint32_t[]>(kMaxTriggerEdges);
+  Targets of_faults;
+  of_faults.wheel_faults = &faults;
+  of_faults.fault_edges = edges.get(), of_faults.fault_tracks = &track, of_faults.wheel_fault_rules = &rule;
+  EXPECT_TRUE(accepted(answer(of_faults)));
+  for (int missing = 0; missing < 3; ++missing) {
+    Targets part = of_faults;
+    if (missing == 0) part.fault_edges = nullptr;
+    if (missing == 1) part.fault_tracks = nullptr;
+    if (missing == 2) part.wheel_fault_rules = nullptr;
+    EXPECT_TRUE(refuses(answer(part), Reason::missing_table, "targets.fault_tracks")) << missing;
+  }
+}
+
+TYPED_TEST(TableTargetsOf, AContactWithoutItsFrictionAreThoseThatTheyAreWithIt) {
+  using Real = TypeParam;
+  EngineDefinition engine = single_495();
+  engine.train_count = 1;
+  engine.trains[0] = valve_test::ohc_125_train();
+  engine.contacts[0].width_m = 9e-3;
+  engine.contacts[0].friction_ratio = 0.1;
+  struct Filled {
+    std::vector<CamContactSegment<Real>> contacts = std::vector<CamContactSegment<Real>>(kDegreesPerTurn);
+    std::vector<Segment<Real>> sliding = std::vector<Segment<Real>>(kDegreesPerTurn);
+    CamContactCurve<Real> curve{};
+    CamTorqueTable<Real> torque{};
+    std::uint32_t segments = 0;
+  };
+  const auto fill = [&engine](bool contact, bool torque) {
+    Filled filled;
+    LiftCurve<Real> lift{};
+    const auto segments = std::make_unique<LiftSegment<Real>[]>(kDegreesPerTurn);
+    const auto ratios = std::make_unique<Segment<Real>[]>(kDegreesPerTurn);
+    TableTargets<Real> targets;
+    targets.lift_curves = &lift, targets.lift_segments = segments.get(), targets.rocker_ratios = ratios.get();
+    targets.cam_sliding = filled.sliding.data();
+    if (contact) targets.cam_contacts = &filled.curve, targets.cam_contact_segments = filled.contacts.data();
+    if (torque) targets.cam_torques = &filled.torque;
+    EXPECT_TRUE(accepted(tabulate(engine, {100e-6, {}}, targets)));
+    filled.segments = lift.segments;
+    return filled;
+  };
+  const Filled both = fill(true, true), contact = fill(true, false), torque = fill(false, true);
+  ASSERT_GT(both.segments, 100u);
+  const std::size_t rows = both.segments;
+  EXPECT_EQ(std::memcmp(contact.contacts.data(), both.contacts.data(), rows * sizeof both.contacts[0]), 0);
+  EXPECT_EQ(std::memcmp(contact.sliding.data(), both.sliding.data(), rows * sizeof both.sliding[0]), 0);
+  EXPECT_EQ(std::memcmp(torque.sliding.data(), both.sliding.data(), rows * sizeof both.sliding[0]), 0);
+  EXPECT_NE(contact.curve.at, nullptr);
+  EXPECT_NE(contact.curve.sliding_m, nullptr);
+  // And of a train without a width sliding is filled for nobody.
+  engine.contacts[0].width_m = 0;
+  const Filled none = fill(true, false);
+  EXPECT_EQ(none.curve.at, nullptr);
+  EXPECT_EQ(none.curve.sliding_m, nullptr);
+  EXPECT_EQ(none.sliding[0].c[0], Real{0});
 }
 
 TYPED_TEST(TableTargetsOf, AnEngineThatHasEverythingFillEverySection) {
@@ -346,6 +408,15 @@ TYPED_TEST(TableTargetsOf, ALobeThatNeverReachesItsValveNameNoDegree) {
   ASSERT_TRUE(accepted(tabulate(engine, {100e-6, {}}, targets)));
   EXPECT_EQ(curve.touch_degrees, 0u);
   EXPECT_GT(curve.skip_deg, Real{360}) << "further than any cam angle is from it";
+  CamDegrees near{}, lobe{};
+  near.cylinders[7] = 1;  // left over
+  targets.near_cams = &near, targets.near_lobes = &lobe;
+  ASSERT_TRUE(accepted(tabulate(engine, {100e-6, {}}, targets)));
+  const auto marked = [](const CamDegrees& of) {
+    return std::accumulate(std::begin(of.cylinders), std::end(of.cylinders), 0u);
+  };
+  EXPECT_EQ(marked(near), 0u) << "not even one degree of margin";
+  EXPECT_EQ(marked(lobe), curve.segments + 1) << "the lobe turns by all the same";
 }
 
 TYPED_TEST(TableTargetsOf, CamDegreesNameEveryPlaceWhereACamIsNearOrEndsItsCycle) {
@@ -470,6 +541,38 @@ TYPED_TEST(TableTargetsOf, AGridAreDividedWhereOneParabolaLessWouldMissTheDiagra
   EXPECT_LT(divided, 200) << "most of a cycle needs no division";
 }
 
+TYPED_TEST(TableTargetsOf, AnEdgeOfACamHaveTheStressOfANanometresRadius) {
+  // The nose's radius of curvature is 1e-12 m where the table is read, at one of the places through which it is fitted.
+  using Real = TypeParam;
+  const double of_degree = node<Real>(0, 0, 1);
+  EngineDefinition engine = single_495();
+  engine.train_count = 1;
+  ValveTrain& train = engine.trains[0] = valve_test::ohc_125_train();
+  train.cam = support::polynomial_cam(8e-3, 60 + of_degree, {2, 4, 6, 8});
+  CamProfile profile;
+  ASSERT_TRUE(accepted(profile.init(train.cam)));
+  const CamLift nose = profile.at(0);
+  train.rocker = support::direct_rocker(-(nose.lift_m + nose.per_rad2_m) + 1e-12, 0.1e-3);
+  train.valve.rocker_inertia_kg_m2 = 0;
+  engine.contacts[0].width_m = 9e-3;
+  ASSERT_TRUE(accepted(validate(engine)));
+  LiftCurve<Real> lift{};
+  CamContactCurve<Real> curve{};
+  const auto segments = std::make_unique<LiftSegment<Real>[]>(kDegreesPerTurn);
+  const auto ratios = std::make_unique<Segment<Real>[]>(kDegreesPerTurn);
+  const auto sliding = std::make_unique<Segment<Real>[]>(kDegreesPerTurn);
+  const auto contacts = std::make_unique<CamContactSegment<Real>[]>(kDegreesPerTurn);
+  TableTargets<Real> targets;
+  targets.lift_curves = &lift, targets.lift_segments = segments.get(), targets.rocker_ratios = ratios.get();
+  targets.cam_contacts = &curve, targets.cam_sliding = sliding.get(), targets.cam_contact_segments = contacts.get();
+  ASSERT_TRUE(accepted(tabulate(engine, {100e-6, {}}, targets)));
+  const double edge_Pa = hertz_contact(engine.contacts[0], 1e9, 1).largest_Pa;
+  EXPECT_NEAR(static_cast<double>(value(contacts[60].stress, static_cast<Real>(of_degree))) / edge_Pa, 1, 1e-3);
+  for (std::uint32_t row = 0; row < lift.segments; ++row) {
+    for (const Real c : contacts[row].stress.c) ASSERT_TRUE(std::isfinite(c)) << row;
+  }
+}
+
 TYPED_TEST(TableTargetsOf, ACutCylinderLacksTheTorqueOfItsOwnCycleWheneverItFires) {
   using Real = TypeParam;
   const auto torques = [](const std::vector<double>& firing_deg) {
@@ -554,6 +657,25 @@ TYPED_TEST(TableTargetsOf, AValveTakesNoStepOverWhichACubicWouldMissItsLift) {
     EXPECT_LE(missed_m, 1.05 * 8.1 * options.valves.accuracy_m) << last_exponent;
     EXPECT_GE(missed_m, 0.6 * 8.1 * options.valves.accuracy_m) << last_exponent;
   }
+}
+
+TYPED_TEST(TableTargetsOf, ALobeThatACubicNeverMissesHaveStepsOfUpToATurn) {
+  // A nanometre of lift over the whole turn: no cubic is off by the accuracy of 10 um.
+  using Real = TypeParam;
+  EngineDefinition engine = single_495();
+  engine.train_count = 1;
+  engine.trains[0] = valve_test::ohc_125_train();
+  engine.trains[0].cam.half_angle_deg = 180;
+  engine.trains[0].cam.max_lift_m = 1e-9;
+  engine.trains[0].rocker.kind = RockerKind::ratio;
+  ValveMotion<Real> motion{};
+  TableTargets<Real> targets;
+  targets.valve_motions = &motion;
+  TickOptions options;
+  options.valves.accuracy_m = 10e-6;
+  ASSERT_TRUE(accepted(tabulate(engine, options, targets)));
+  EXPECT_EQ(motion.cubic_deg, Real{360});
+  EXPECT_EQ(motion.widest_step_deg, Real{360});
 }
 
 TYPED_TEST(TableTargetsOf, ValvesTellTheFineStepsOfTheWorstTickAndRefuseTooMany) {

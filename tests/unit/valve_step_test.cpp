@@ -2,6 +2,7 @@
 // lengths, size of the state.
 #include <crankloop/output.hpp>
 #include <crankloop/tabulate/valve_motion.hpp>
+#include <crankloop/tick/valve/valve_access.hpp>
 
 #include <gtest/gtest.h>
 
@@ -330,6 +331,43 @@ TEST(Contacts, HoldOnlyWhileBothTheGapAndTheForceArePositive) {
   EXPECT_EQ(regime(1e-6, 1, -50e-6, 0), 0u) << "in the seat but leaving faster than it springs back: no adhesion";
   EXPECT_EQ(regime(3e-6, -1, -50e-6, 0), 0u) << "coming down, not there yet";
   EXPECT_EQ(regime(2e-6, 0, -50e-6, 0), 0u) << "at the very end of the seat's spring there is no force";
+}
+
+TEST(Contacts, PushAndNeverPull) {
+  ValveBody<double> b{};
+  b.train_N_m = 1e7, b.train_Ns_m = 100, b.seat_N_m = 1e8, b.seat_Ns_m = 500, b.preload_N = 200;
+  EXPECT_NEAR(detail::train_force_N(b, kTrainOn, 3e-5, -1.0), 300 - 100, 1e-9);
+  EXPECT_EQ(detail::train_force_N(b, kTrainOn, 3e-5, -4.0), 0) << "its damper would hold it back by 100 N";
+  EXPECT_EQ(detail::train_force_N(b, kSeatOn, 3e-5, -1.0), 0) << "not in contact";
+  const auto on_seat_N = [&b](double y, double v) {
+    ValveForcesOutput<double> shown{};
+    detail::write_seat_forces(shown, b, ValveState<double>{y, v}, {});
+    EXPECT_EQ(shown.train_N, 0);
+    EXPECT_EQ(shown.regime, kSeatOn);
+    return shown.seat_N;
+  };
+  EXPECT_NEAR(on_seat_N(-1e-6, -0.1), 200 + 100 + 50, 1e-9) << "pressed in, and going deeper";
+  EXPECT_EQ(on_seat_N(1e-6, 0.3), 0) << "100 N are left of the spring's, of which its damper takes 150";
+}
+
+/// A valve between its cam and its seat goes along with the cam by the stiffnesses alone: as the places do where it
+/// would rest under a cam that stands a little lower, and a little higher.
+TEST(ValveOnItsCam, MovesInItsSeatAsItsPlacesOfRestDo) {
+  const ValveMotion<double> motion = motion_for(body_of(ohc_125_train()), 10e-6);
+  const auto rest_at = [&motion](double cam_m) { return detail::in_equilibrium(motion, cam_m, 0.0); };
+  for (const double cam_m : {2e-6, 8e-6, 15e-6}) {
+    const auto resting = rest_at(cam_m);
+    ASSERT_EQ(resting.regime, kTrainOn | kSeatOn) << cam_m;
+    const double per_cam = (rest_at(cam_m + 1e-7).state.lift_m - rest_at(cam_m - 1e-7).state.lift_m) / 2e-7;
+    ASSERT_GT(per_cam, 0.01);
+    for (const double deg_per_s : {3000.0, -3000.0}) {
+      const Lift<double> cam{cam_m, 1e-7};
+      const auto carried = detail::carried_along(motion, resting, cam, 1e-6, deg_per_s);
+      EXPECT_EQ(carried.state.lift_m, resting.state.lift_m) << "no inertia bends it there";
+      EXPECT_NEAR(carried.state.velocity_m_s, per_cam * deg_per_s * cam.per_deg_m, 1e-6 * 3e-4);
+      EXPECT_EQ(carried.regime, kTrainOn | kSeatOn);
+    }
+  }
 }
 
 TEST(ValveStepping, RefusesWhatItCannotStepAndNamesTheLongestTick) {
