@@ -108,30 +108,43 @@ Draw drawn(Random& random, const SingleMass& mass, double tick_s) {
   return draw;
 }
 
-TEST(EventLocator, LeadsWhereTheLawOfMotionDoesUnderGasThatRisesWithinTheTick) {
-  const ValveTrain train = ohc_125_train();
-  const SingleMass mass(train.valve, train.rocker, lift_of(train).largest_lift_m());
-  constexpr double kTick_s = 10e-6;
-  const detail::ValveMotion<double> motion = motion_for(body_of(train), kTick_s);
-  ASSERT_EQ(motion.parts, 1u);
-  ASSERT_GT(motion.widest_step_deg, 0.25);
-  const detail::LiftCurve<double> curve{};
+/// The 125's valve in ticks so short that none is divided.
+class EventLocator : public testing::Test {
+ protected:
+  static constexpr double kTick_s = 10e-6;
+
+  /// A tick whose step begins in `regime`, whatever contacts its start requires.
+  template <class Record>
+  [[nodiscard]] detail::ValveInRegime<double> run(const ValveState<double>& start, std::uint32_t regime,
+                                                  const Span& tick, detail::EventBudget& budget, Record& record) const {
+    const auto plain = stepped(motion_.fine[regime], start, tick.from, tick.to, tick.cam.deg, tick.gas);
+    return detail::EventLocator<double, Gas, Record>(motion_, curve_, budget, record)
+        .run({start, regime}, plain, tick, 0, std::int64_t{1} << 50);
+  }
+
+  const ValveTrain train_ = ohc_125_train();
+  const SingleMass mass_{train_.valve, train_.rocker, lift_of(train_).largest_lift_m()};
+  const detail::ValveMotion<double> motion_ = motion_for(body_of(train_), kTick_s);
+  const detail::LiftCurve<double> curve_{};
+};
+
+TEST_F(EventLocator, LeadsWhereTheLawOfMotionDoesUnderGasThatRisesWithinTheTick) {
+  ASSERT_EQ(motion_.parts, 1u);
+  ASSERT_GT(motion_.widest_step_deg, 0.25);
   Random random;
   std::vector<double> off_m, off_m_s;
   int once = 0, more = 0, told_otherwise = 0;
   for (int i = 0; i < 6000; ++i) {
-    const Draw draw = drawn(random, mass, kTick_s);
-    const Brute truth = brute_force(mass, draw.start, draw.step.gas, kTick_s, 400,
+    const Draw draw = drawn(random, mass_, kTick_s);
+    const Brute truth = brute_force(mass_, draw.start, draw.step.gas, kTick_s, 400,
                                     [&draw](double x) { return cam_within(draw.step, x, kTick_s); });
     if (truth.changes == 0) continue;
     ++(truth.changes == 1 ? once : more);
     detail::EventBudget budget{100, false};
-    const std::uint32_t regime = detail::required_contacts(motion, draw.start, draw.step.from, draw.step.cam.deg_per_s);
-    const auto plain =
-        stepped(motion.fine[regime], draw.start, draw.step.from, draw.step.to, draw.step.cam.deg, draw.step.gas);
+    const std::uint32_t regime =
+        detail::required_contacts(motion_, draw.start, draw.step.from, draw.step.cam.deg_per_s);
     Changes located;
-    const auto end =
-        Locator(motion, curve, budget, located).run({draw.start, regime}, plain, draw.step, 0, std::int64_t{1} << 50);
+    const auto end = run(draw.start, regime, draw.step, budget, located);
     off_m.push_back(std::fabs(end.state.lift_m - truth.end.lift_m));
     off_m_s.push_back(std::fabs(end.state.velocity_m_s - truth.end.velocity_m_s));
     EXPECT_FALSE(budget.exceeded) << random.trace(i);
@@ -156,12 +169,12 @@ TEST(EventLocator, LeadsWhereTheLawOfMotionDoesUnderGasThatRisesWithinTheTick) {
   EXPECT_LT(of_rank(off_m_s, 1), 20e-3);
 }
 
-TEST(EventLocator, FindsAllEventsInTheFineStepsOfALongTick) {
+TEST_F(EventLocator, FindsAllEventsInTheFineStepsOfALongTick) {
   // On the flanks of the lobe the valve flies along its train, a tenth of a micrometre from it: it touches and leaves
   // it within a fine step, or several times in a tick.
   const ValveTrain train = ohc_125_train();
-  constexpr double kTick_s = 100e-6;
-  const Rig<double> rig(train, {kTick_s, {}});
+  constexpr double kLongTick_s = 100e-6;
+  const Rig<double> rig(train, {kLongTick_s, {}});
   const detail::ValveMotion<double>& motion = rig.motion();
   const detail::LiftCurve<double>& curve = rig.curve();
   const SingleMass mass(train.valve, train.rocker, lift_of(train).largest_lift_m());
@@ -171,7 +184,7 @@ TEST(EventLocator, FindsAllEventsInTheFineStepsOfALongTick) {
   double off_m = 0;
   for (int i = 0; i < 1000; ++i) {
     const double deg_per_s = random.between(9e3, 27e3);  // to 9000 rpm
-    const double deg = deg_per_s * kTick_s;
+    const double deg = deg_per_s * kLongTick_s;
     const auto at = [&](double x, double from_deg) {
       return curve.read(
           detail::LiftCurve<double>::cell(static_cast<std::uint64_t>((from_deg + x * deg) / 360 * 0x1p64)));
@@ -182,10 +195,10 @@ TEST(EventLocator, FindsAllEventsInTheFineStepsOfALongTick) {
     const ValveState<double> start{step.from.lift_m + random.between(-1, 1) * 1e-7,
                                    step.from.per_deg_m * deg_per_s + random.between(-0.03, 0.03)};
     const double hold_N = -mass.k_s * start.lift_m - mass.P;  // cancels the spring
-    const double bend_N = (step.to.per_deg_m - step.from.per_deg_m) * deg_per_s / kTick_s * mass.M;
+    const double bend_N = (step.to.per_deg_m - step.from.per_deg_m) * deg_per_s / kLongTick_s * mass.M;
     const double gas_N = hold_N - bend_N;  // so that it flies as its cam moves
     step.gas = {gas_N + random.between(-100, 100), gas_N + random.between(-100, 100)};
-    const Brute truth = brute_force(mass, start, step.gas, kTick_s, 1000, [&](double x) {
+    const Brute truth = brute_force(mass, start, step.gas, kLongTick_s, 1000, [&](double x) {
       const detail::Lift<double> lift = at(x, from_deg);
       return CamAt{lift.lift_m, lift.per_deg_m * deg_per_s};
     });
@@ -230,24 +243,17 @@ struct Path {
 
 /// The parts of a tick follow one another without a gap, from its start to its end, as long as the cam takes to turn
 /// through them; contacts change where one ends, and are the next one's. So too with a budget for one event.
-TEST(EventLocator, RecordsTheTickPartByPart) {
-  const ValveTrain train = ohc_125_train();
-  const SingleMass mass(train.valve, train.rocker, lift_of(train).largest_lift_m());
-  constexpr double kTick_s = 10e-6;
-  const detail::ValveMotion<double> motion = motion_for(body_of(train), kTick_s);
-  const detail::LiftCurve<double> curve{};
+TEST_F(EventLocator, RecordsTheTickPartByPart) {
   Random random;
   int behind_an_event = 0, for_want_of_budget = 0;
   for (int i = 0; i < 3000; ++i) {
     SCOPED_TRACE(random.trace(i));
-    const Draw draw = drawn(random, mass, kTick_s);
+    const Draw draw = drawn(random, mass_, kTick_s);
     const Span& tick = draw.step;
-    const std::uint32_t start = detail::required_contacts(motion, draw.start, tick.from, tick.cam.deg_per_s);
-    const auto plain = stepped(motion.fine[start], draw.start, tick.from, tick.to, tick.cam.deg, tick.gas);
+    const std::uint32_t start = detail::required_contacts(motion_, draw.start, tick.from, tick.cam.deg_per_s);
     detail::EventBudget budget{random.coin() ? 100 : detail::kUnitsOfEvent, false};
     Path path;
-    const auto end = detail::EventLocator<double, Gas, Path>(motion, curve, budget, path)
-                         .run({draw.start, start}, plain, tick, 0, std::int64_t{1} << 50);
+    const auto end = run(draw.start, start, tick, budget, path);
     double at_deg = 0;
     std::uint32_t regime = start;
     std::size_t told = 0;
@@ -275,28 +281,23 @@ TEST(EventLocator, RecordsTheTickPartByPart) {
 
 /// The cam's speed may change between two ticks, and with it whether the train pushes: then the contacts with which the
 /// tick before ended are not those that this one begins with.
-TEST(EventLocator, BeginsATickWithTheContactsThatItsStartRequires) {
-  const ValveTrain train = ohc_125_train();
-  const SingleMass mass(train.valve, train.rocker, lift_of(train).largest_lift_m());
-  constexpr double kTick_s = 10e-6;
-  const detail::ValveMotion<double> motion = motion_for(body_of(train), kTick_s);
-  const detail::LiftCurve<double> curve{};
+TEST_F(EventLocator, BeginsATickWithTheContactsThatItsStartRequires) {
   Random random;
   int calm = 0;
   for (int i = 0; i < 3000; ++i) {
     SCOPED_TRACE(random.trace(i));
-    const Draw draw = drawn(random, mass, kTick_s);
+    const Draw draw = drawn(random, mass_, kTick_s);
     const Span& tick = draw.step;
-    const std::uint32_t now = detail::required_contacts(motion, draw.start, tick.from, tick.cam.deg_per_s);
+    const std::uint32_t now = detail::required_contacts(motion_, draw.start, tick.from, tick.cam.deg_per_s);
     const std::uint32_t before = now ^ kTrainOn;
-    const Brute truth = brute_force(mass, draw.start, tick.gas, kTick_s, 200,
+    const Brute truth = brute_force(mass_, draw.start, tick.gas, kTick_s, 200,
                                     [&tick](double x) { return cam_within(tick, x, kTick_s); });
     if (truth.changes != 0) continue;
     ++calm;
-    const auto plain = stepped(motion.fine[before], draw.start, tick.from, tick.to, tick.cam.deg, tick.gas);
+    const auto plain = stepped(motion_.fine[before], draw.start, tick.from, tick.to, tick.cam.deg, tick.gas);
     const auto run_with = [&](std::uint32_t units, Changes& changes, detail::EventBudget& budget) {
       budget = {units, false};
-      return Locator(motion, curve, budget, changes).run({draw.start, before}, plain, tick, 0, std::int64_t{1} << 50);
+      return run(draw.start, before, tick, budget, changes);
     };
     detail::EventBudget budget{};
     Changes located;
@@ -309,32 +310,27 @@ TEST(EventLocator, BeginsATickWithTheContactsThatItsStartRequires) {
     const auto beyond = run_with(detail::kUnitsOfSearch, none_at_start, budget);
     EXPECT_TRUE(budget.exceeded) << "a search more than there is";
     EXPECT_EQ(beyond.state.lift_m, plain.state.lift_m) << "as the tick before ended";
-    EXPECT_EQ(beyond.regime, detail::required_contacts(motion, plain.state, tick.to, tick.cam.deg_per_s));
+    EXPECT_EQ(beyond.regime, detail::required_contacts(motion_, plain.state, tick.to, tick.cam.deg_per_s));
   }
   EXPECT_GT(calm, 500);
 }
 
 /// A train that touches at the end of a step by less than a valve at rest may be off needs no location: without budget
 /// for it nothing is amiss, be it the step's first change or one after another. A larger one is told.
-TEST(EventLocator, ExceedsItsBudgetByNoTouchOfATrainThatIsNegligible) {
-  const ValveTrain train = ohc_125_train();
-  constexpr double kTick_s = 10e-6;
-  const detail::ValveMotion<double> motion = motion_for(body_of(train), kTick_s);
-  const detail::LiftCurve<double> curve{};
-  const double rest_m = motion.fine[kSeatOn].rest_m;
+TEST_F(EventLocator, ExceedsItsBudgetByNoTouchOfATrainThatIsNegligible) {
+  const double rest_m = motion_.fine[kSeatOn].rest_m;
   for (const bool lands_before : {false, true}) {
     Span step{};
     step.cam = {0.25, 0.25 / kTick_s};
     const double fall_m_s = 0.3;
-    const double seat_m = motion.body.seat_compression_m;
+    const double seat_m = motion_.body.seat_compression_m;
     const ValveState<double> start{lands_before ? seat_m + 0.3 * fall_m_s * kTick_s : 3e-3, -fall_m_s};
-    const auto plain = stepped(motion.fine[0], start, step.from, step.to, step.cam.deg, step.gas);
     const auto run_with = [&](double cam_m, std::uint32_t units, Changes& located, detail::EventBudget& budget) {
       const double rise_m_s = 0.5;
       step.from = {cam_m - rise_m_s * kTick_s, rise_m_s / step.cam.deg_per_s};
       step.to = {cam_m, rise_m_s / step.cam.deg_per_s};
       budget = {units, false};
-      return Locator(motion, curve, budget, located).run({start, 0}, plain, step, 0, std::int64_t{1} << 50);
+      return run(start, 0, step, budget, located);
     };
     detail::EventBudget budget{};
     Changes landing;
@@ -355,13 +351,8 @@ TEST(EventLocator, ExceedsItsBudgetByNoTouchOfATrainThatIsNegligible) {
 
 /// Valve and cam are braked alike, and the force between them goes through zero and back within the step: so shortly
 /// that at both ends of it nothing has changed.
-TEST(EventLocator, FindsATrainThatPartsAndTouchesWithinAFineStepHoweverTheCamIsBraked) {
-  const ValveTrain train = ohc_125_train();
-  const SingleMass mass(train.valve, train.rocker, lift_of(train).largest_lift_m());
-  constexpr double kTick_s = 10e-6;
-  const detail::ValveMotion<double> motion = motion_for(body_of(train), kTick_s);
-  const detail::LiftCurve<double> curve{};
-  const double lag_s = mass.b / mass.k;
+TEST_F(EventLocator, FindsATrainThatPartsAndTouchesWithinAFineStepHoweverTheCamIsBraked) {
+  const double lag_s = mass_.b / mass_.k;
   Random random;
   int parted = 0, told_otherwise = 0;
   for (int i = 0; i < 1000; ++i) {
@@ -381,18 +372,18 @@ TEST(EventLocator, FindsATrainThatPartsAndTouchesWithinAFineStepHoweverTheCamIsB
     step.from = {start.lift_m + depth_m, (start.velocity_m_s + speed_m_s) * per_deg};
     step.to = {end_m + depth_m + speed_m_s * kTick_s + closing_m_s2 / 2 * kTick_s * kTick_s,
                (end_m_s + speed_m_s + closing_m_s2 * kTick_s) * per_deg};
-    const auto gas_N = [&](double y, double v) { return -mass.k_s * y - mass.P - mass.c * v - mass.M * valve_m_s2; };
+    const auto gas_N = [&](double y, double v) {
+      return -mass_.k_s * y - mass_.P - mass_.c * v - mass_.M * valve_m_s2;
+    };
     step.gas = {gas_N(start.lift_m, start.velocity_m_s), gas_N(end_m, end_m_s)};
     const Brute truth =
-        brute_force(mass, start, step.gas, kTick_s, 400, [&step](double x) { return cam_within(step, x, kTick_s); });
-    const std::uint32_t regime = detail::required_contacts(motion, start, step.from, step.cam.deg_per_s);
+        brute_force(mass_, start, step.gas, kTick_s, 400, [&step](double x) { return cam_within(step, x, kTick_s); });
+    const std::uint32_t regime = detail::required_contacts(motion_, start, step.from, step.cam.deg_per_s);
     if (regime != kTrainOn || truth.changes != 2) continue;
     ++parted;
     detail::EventBudget budget{100, false};
     Changes located;
-    const auto plain = stepped(motion.fine[regime], start, step.from, step.to, step.cam.deg, step.gas);
-    const auto end =
-        Locator(motion, curve, budget, located).run({start, regime}, plain, step, 0, std::int64_t{1} << 50);
+    const auto end = run(start, regime, step, budget, located);
     told_otherwise += located.count != 2 ? 1 : 0;
     EXPECT_NEAR(end.state.lift_m, truth.end.lift_m, 1e-10) << random.trace(i);
   }
@@ -403,7 +394,7 @@ TEST(EventLocator, FindsATrainThatPartsAndTouchesWithinAFineStepHoweverTheCamIsB
 
 /// A valve that gas lifts off its seat by nearly as much as its spring presses it in is not taken for one that no train
 /// can reach; one that stays deep in its seat is.
-TEST(EventLocator, TakesAValveForQuietByWhereGasHoldsIt) {
+TEST_F(EventLocator, TakesAValveForQuietByWhereGasHoldsIt) {
   const ValveTrain train = ohc_125_train();
   const Rig<double> rig(train, {100e-6, {}});
   const detail::ValveMotion<double>& motion = rig.motion();

@@ -40,6 +40,16 @@ template <class Real>
 class TableTargetsOf : public ::testing::Test {};
 TYPED_TEST_SUITE(TableTargetsOf, BothReals, RealName);
 
+/// With a cam contact that has a width and friction.
+[[nodiscard]] EngineDefinition with_cam_contact() {
+  EngineDefinition engine = single_495();
+  engine.train_count = 1;
+  engine.trains[0] = valve_test::ohc_125_train();
+  engine.contacts[0].width_m = 9e-3;
+  engine.contacts[0].friction_ratio = 0.1;
+  return engine;
+}
+
 TYPED_TEST(TableTargetsOf, APartWithoutWhatBelongsToItAreRefusedByItsName) {
   using Real = TypeParam;
   GasGrid grid{};
@@ -122,11 +132,7 @@ TYPED_TEST(TableTargetsOf, APartWithoutWhatBelongsToItAreRefusedByItsName) {
 
 TYPED_TEST(TableTargetsOf, AContactWithoutItsFrictionAreThoseThatTheyAreWithIt) {
   using Real = TypeParam;
-  EngineDefinition engine = single_495();
-  engine.train_count = 1;
-  engine.trains[0] = valve_test::ohc_125_train();
-  engine.contacts[0].width_m = 9e-3;
-  engine.contacts[0].friction_ratio = 0.1;
+  EngineDefinition engine = with_cam_contact();
   struct Filled {
     std::vector<CamContactSegment<Real>> contacts = std::vector<CamContactSegment<Real>>(kDegreesPerTurn);
     std::vector<Segment<Real>> sliding = std::vector<Segment<Real>>(kDegreesPerTurn);
@@ -166,11 +172,7 @@ TYPED_TEST(TableTargetsOf, AContactWithoutItsFrictionAreThoseThatTheyAreWithIt) 
 
 TYPED_TEST(TableTargetsOf, AnEngineThatHasEverythingFillEverySection) {
   using Real = TypeParam;
-  EngineDefinition engine = single_495();
-  engine.train_count = 1;
-  engine.trains[0] = valve_test::ohc_125_train();
-  engine.contacts[0].width_m = 9e-3;
-  engine.contacts[0].friction_ratio = 0.1;
+  EngineDefinition engine = with_cam_contact();
   engine.trigger_count = 1;
   engine.triggers[0].places = 60;
   engine.wheel_fault_count = 1;
