@@ -342,6 +342,93 @@ TEST(ExhaustLambdaSensor, IsRefusedWithItsFieldByTheEngineThatHasIt) {
   EXPECT_TRUE(accepted(validate(without))) << "not read";
 }
 
+/// Gas of nothing but fuel, or of almost nothing else: the smallest that is shown; half of each is 1 / 14.6.
+TYPED_TEST(ExhaustLambda, IsHeldWhereThereIsNextToNoAir) {
+  using Real = TypeParam;
+  const auto run = turning<Real, LambdaFour>(four(300e-6, 0.5), 0, 0.5);
+  const auto& table = *run->storage.tables().lambda;
+  const auto lambda = [&table](double fuel_kg) {
+    const Real ratio = detail::fuel_by_air_ratio(table, Real{1}, Real{0}, static_cast<Real>(fuel_kg));
+    return static_cast<double>(detail::lambda_of(ratio));
+  };
+  EXPECT_NEAR(lambda(0.5), 1 / 14.6, 1e-7);
+  for (const double fuel_kg : {0.999, 1.0, 2.0}) EXPECT_NEAR(lambda(fuel_kg), 0.01, 1e-8) << fuel_kg;
+}
+
+/// A quarter of a parcel is there; of what flows in, the pipe takes its own volume, which pushes all else out.
+TYPED_TEST(ExhaustLambda, FillsItsPipeNoMoreThanOnceInATick) {
+  using Real = TypeParam;
+  const auto real = [](double x) { return static_cast<Real>(x); };
+  const auto run = turning<Real, LambdaFour>(four(300e-6, 0.5), 0, 0.5);
+  for (const double parcels : {32.0, 33.0, 1e6}) {
+    auto state = run->engine.state();
+    state.oldest_parcel = 5, state.filled_ratio = real(0.25), state.filling_ratio = real(0.25 * 0.5);
+    detail::flow_into_pipe(state, real(parcels), real(0.75));
+    EXPECT_EQ(state.oldest_parcel, 5u);
+    for (std::uint32_t i = 0; i < 32; ++i)
+      EXPECT_EQ(state.pipe_ratio[i], real(i == 5 ? 0.25 * 0.5 + 0.75 * 0.75 : 0.75)) << i;
+    EXPECT_EQ(state.filled_ratio, real(0.25));
+    EXPECT_EQ(state.filling_ratio, real(0.25 * 0.75));
+    // A parcel that rounding has left full goes in first.
+    state.filled_ratio = Real{1}, state.filling_ratio = real(0.5);
+    detail::flow_into_pipe(state, real(parcels), real(0.125));
+    EXPECT_EQ(state.oldest_parcel, 6u);
+    for (const Real ratio : state.pipe_ratio) EXPECT_EQ(ratio, real(0.125));
+    EXPECT_EQ(state.filled_ratio, Real{0});
+    EXPECT_EQ(state.filling_ratio, Real{0});
+  }
+}
+
+TYPED_TEST(ExhaustLambda, IsZeroOfACylinderThatNothingLeft) {
+  using Real = TypeParam;
+  const auto run = turning<Real, LambdaFour>(support::sealed(four(300e-6, 0.5)), 3000, 0.5);
+  ask_lambda(*run, 1.2);
+  for (int tick = 0; tick < ticks_of_cycles(3, 3000); ++tick) run->step();
+  const auto& out = run->engine.output();
+  for (int k = 0; k < 4; ++k) {
+    EXPECT_GT(out.gas_cycle[k].peak_Pa, Real{1e6}) << k;  // a whole cycle is shown
+    EXPECT_EQ(out.outflow_excess_air_ratio[k], Real{0}) << k;
+  }
+}
+
+/// A saved state may have more fuel in a volume than gas: what leaves it is fuel alone, and no more of it stays than
+/// gas.
+TYPED_TEST(ExhaustLambda, HasNoMoreUnburnedFuelThanGas) {
+  using Real = TypeParam;
+  const auto run = turning<Real, LambdaFour>(support::sealed(four(300e-6, 0.5)), 0, 0.5);
+  auto state = run->engine.state();
+  auto& gas = state.manifold[kExhaust].contents;
+  gas.mass_kg *= 2, gas.energy_J *= 2, gas.burned_kg *= 2;  // so that it flows out
+  state.manifold[kExhaust].point.pressure_Pa *= 2;
+  state.manifold_unburned_kg[kExhaust] = 3 * gas.mass_kg, state.unburned_kg[1] = Real{1};
+  state.any_unburned = 1;
+  ASSERT_TRUE(accepted(run->engine.restore(state)));
+  const auto& out = run->step();
+  EXPECT_EQ(out.faults, 0u);
+  EXPECT_GT(out.outlet_kg_s, Real{0});
+  const auto& now = run->engine.state();
+  EXPECT_EQ(now.outlet_unburned_ratio, Real{1});
+  EXPECT_EQ(now.manifold_unburned_kg[kExhaust], now.manifold[kExhaust].contents.mass_kg);
+  EXPECT_EQ(now.unburned_kg[1], now.cylinder_gas.mass_kg[1]);
+  EXPECT_NEAR(static_cast<double>(out.exhaust_excess_air_ratio), 0.01, 1e-8);
+}
+
+/// A scene may have room for runners and crevices that the engine has not.
+TYPED_TEST(ExhaustLambda, IsTheSameInASceneThatHasRoomForMore) {
+  using Real = TypeParam;
+  const auto run = turning<Real, LambdaFour>(four(500e-6, 0.05), 3000, 0.5);
+  const auto other = turning<Real, WholeLambdaFour>(four(500e-6, 0.05), 3000, 0.5);
+  ask_lambda(*run, 0.8), ask_lambda(*other, 0.8);
+  for (int tick = 0; tick < ticks_of_cycles(12, 3000); ++tick) {
+    const auto& a = run->step();
+    const auto& b = other->step();
+    ASSERT_EQ(a.exhaust_excess_air_ratio, b.exhaust_excess_air_ratio) << tick;
+    ASSERT_EQ(a.sensor_excess_air_ratio, b.sensor_excess_air_ratio) << tick;
+    for (int k = 0; k < 4; ++k) ASSERT_EQ(a.outflow_excess_air_ratio[k], b.outflow_excess_air_ratio[k]) << tick;
+  }
+  EXPECT_LT(run->engine.output().exhaust_excess_air_ratio, static_cast<Real>(0.9));
+}
+
 /// What was in the gas, and what came and went: in a definition without a sensor nothing at all.
 TYPED_TEST(ExhaustLambda, IsZeroWithoutASensor) {
   using Real = TypeParam;

@@ -124,6 +124,7 @@ EngineDefinition engine_of() {
     engine.trains[0].valve.surge_modes = static_cast<int>(S::spring_modes);
     if (!S::rod_inertia) engine.masses.rod_inertia_correction_kg_m2 = 0;
   }
+  if (S::runners) engine.gas.intake_runner = {0.35, 0.038, 0.8}, engine.gas.exhaust_runner = {0.5, 0.036, 0.8};
   for (int t = 0; t < engine.train_count; ++t) engine.trains[t].cam.phase_rate_deg_s = 300;
   if (detail::Needs<S>::crank_dynamics) {
     engine.friction = {60e3, 100, 0.5};
@@ -405,6 +406,40 @@ TEST_F(ForgedPorts, AsARunLeavesThemAreAccepted) {
     in.speed_rad_s = tick % 500 < 300 ? 300 : -700;
     engine_->step(in);
     ASSERT_TRUE(accepted(load([](auto&) {}))) << tick;
+  }
+}
+
+struct RunnersFromGiven : FollowingFromGiven {
+  static constexpr bool runners = true;
+};
+template <class Real>
+class ForgedRunners : public ForgedGasIn<Real, RunnersFromGiven> {};
+TYPED_TEST_SUITE(ForgedRunners, tick_test::BothReals, tick_test::RealName);
+
+/// All else agrees: nothing, gas colder than any or with a specific heat beyond any gas's.
+TYPED_TEST(ForgedRunners, WithNoGasOrWithGasThatNoneIsAreRefused) {
+  using Real = TypeParam;
+  EXPECT_TRUE(accepted(this->load([](auto&) {})));
+  for (const int port : {kIntake, kExhaust}) {
+    for (const std::uint32_t k : {0u, 3u}) {
+      EXPECT_TRUE(this->refused(
+          [&](auto& s) { s.runner[port][k].contents = {}, s.runner[port][k].point.pressure_Pa = Real{0}; }));
+      const auto at_K = [&](double kelvin) {
+        return [port, k, kelvin](auto& s) {
+          auto& runner = s.runner[port][k];
+          const Real factor = static_cast<Real>(kelvin) / runner.point.temperature_K;
+          runner.point.temperature_K *= factor, runner.point.pressure_Pa *= factor;
+          runner.contents.energy_J *= factor, runner.contents.energy_rest_J = Real{0};
+        };
+      };
+      EXPECT_TRUE(this->refused(at_K(49.9)));
+      EXPECT_TRUE(accepted(this->load(at_K(50.1))));
+      const auto of_ratio = [&](double ratio) {
+        return [port, k, ratio](auto& s) { s.runner[port][k].point.gas_ratio = static_cast<Real>(ratio); };
+      };
+      EXPECT_TRUE(this->refused(of_ratio(0.1399)));
+      EXPECT_TRUE(accepted(this->load(of_ratio(0.1401))));
+    }
   }
 }
 

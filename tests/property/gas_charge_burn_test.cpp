@@ -227,6 +227,72 @@ TYPED_TEST(GasChargeBurn, EndsInTime) {
   EXPECT_NEAR(static_cast<double>(cycle.fuel_kg), definition.gas.fuel_kg, 1e-6 * definition.gas.fuel_kg);
 }
 
+/// A cylinder that has a burn as `change` leaves it, from half a turn before firing dead centre to its cycle's end.
+template <class Real, class Change>
+[[nodiscard]] auto burn_of_changed(const Change& change, double& burnt_kg) {
+  const auto run = breathing<Real>(by_charge(), 50e-6, 2000);
+  const auto deg = [&run] { return static_cast<double>(tick_test::deg_of(run->engine.state().phase)); };
+  for (int tick = 0; tick < 2500; ++tick) (void)run->step();  // two cycles
+  while (deg() < 600 || deg() > 602) (void)run->step();
+  auto state = run->engine.state();
+  change(state.burn[0], state.charge_burn[0]);
+  EXPECT_TRUE(accepted(run->engine.restore(state)));
+  while (deg() > 359 || deg() < 357) EXPECT_EQ(run->step().faults, 0u);
+  for (int tick = 0; tick < 10; ++tick) (void)run->step();
+  burnt_kg = static_cast<double>(run->engine.output().gas_cycle[0].fuel_kg);
+  return run->engine.output().cycle_burn[0];
+}
+
+/// Of a saved state, whose burn may be due as late as burns may end: then it lasts 1 deg.
+TYPED_TEST(GasChargeBurn, LastsADegreeWhereItIsDueAtTheLatest) {
+  using Real = TypeParam;
+  double burnt_kg = 0;
+  const auto burn = burn_of_changed<Real>(
+      [](auto& of_cylinder, auto& start) {
+        of_cylinder.taken = 1, of_cylinder.fuel_kg = static_cast<Real>(20e-6);
+        of_cylinder.excess_air_ratio = static_cast<Real>(1.5), of_cylinder.burnt_ratio = Real{0};
+        of_cylinder.start_deg = Real{150}, of_cylinder.duration_deg = Real{50}, start.due = 1;
+      },
+      burnt_kg);
+  EXPECT_EQ(burn.start_deg, Real{150});
+  EXPECT_NEAR(static_cast<double>(burn.duration_deg), 1, 1e-6);
+  EXPECT_NEAR(burnt_kg, 20e-6, 1e-11);
+}
+
+/// Of a saved state whose burn has no duration.
+TYPED_TEST(GasChargeBurn, ShowsNothingOfACycleWhoseBurnHasNoDuration) {
+  using Real = TypeParam;
+  double burnt_kg = 0;
+  const auto burn = burn_of_changed<Real>(
+      [](auto& of_cylinder, auto& start) {
+        of_cylinder.taken = 1, of_cylinder.fuel_kg = static_cast<Real>(20e-6), of_cylinder.burnt_ratio = Real{0};
+        of_cylinder.excess_air_ratio = static_cast<Real>(1.5), of_cylinder.per_deg = Real{0}, start.due = 0;
+      },
+      burnt_kg);
+  EXPECT_EQ(burn.start_deg, Real{0});
+  EXPECT_EQ(burn.duration_deg, Real{0});
+  EXPECT_EQ(burnt_kg, 0);
+}
+
+/// Without speed there is no time for heat to the walls, on no way and on any: the very gas of the cylinder.
+TYPED_TEST(GasChargeBurn, BeginsWithTheGasAsItIsWhereTheCrankStands) {
+  using Real = TypeParam;
+  const auto run = breathing<Real>(by_charge(), 50e-6, 3000);
+  while (tick_test::deg_of(run->engine.state().phase) < 700) (void)run->step();
+  run->in.speed_rad_s = Real{0};
+  (void)run->step();
+  const auto& state = run->engine.state();
+  ASSERT_EQ(state.speed_rad_s, Real{0});
+  const auto deg = static_cast<Real>(tick_test::deg_of(state.phase) - 720);
+  const double hot_K = static_cast<double>(state.cylinder_gas.temperature_K[0]);
+  EXPECT_GT(hot_K, 550);
+  for (const double on_deg : {0.0, 3.0}) {
+    const auto charge = detail::charge_at(run->storage.tables(), state, 0, deg, static_cast<Real>(on_deg));
+    EXPECT_NEAR(static_cast<double>(charge.temperature_K), hot_K, 1e-5 * hot_K);
+    EXPECT_NEAR(static_cast<double>(charge.pressure_Pa / state.cylinder_gas.pressure_Pa[0]), 1, 1e-4);
+  }
+}
+
 // ---- scenes ---------------------------------------------------------------------------------------------------------
 
 TYPED_TEST(GasChargeBurn, ChangesNoBitWhereTheEngineHasNone) {

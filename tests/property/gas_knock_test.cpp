@@ -117,6 +117,65 @@ TYPED_TEST(GasKnock, CompressesUnburnedGasWithoutHeat) {
   EXPECT_LT(error_K(200), sizeof(Real) == 4 ? 5e-3 : 3e-4);
 }
 
+/// From leaps of the pressure for which the step would have 8100 K and 55 K.
+TYPED_TEST(GasKnock, HoldsUnburnedGasToTemperaturesThatAGasMayHave) {
+  using Real = TypeParam;
+  struct Leap {
+    double from_K, from_Pa, to_Pa, to_K;
+  };
+  for (const Leap& leap : {Leap{5500, 1e5, 1e12, 6000}, Leap{150, 1e7, 1e-6, 100}}) {
+    detail::KnockRecord<Real> knock{};
+    knock.unburned_K = static_cast<Real>(leap.from_K), knock.pressure_Pa = static_cast<Real>(leap.from_Pa);
+    const Real mean_K = detail::compress_unburned(knock, static_cast<Real>(leap.to_Pa));
+    EXPECT_EQ(knock.unburned_K, static_cast<Real>(leap.to_K));
+    EXPECT_EQ(mean_K, static_cast<Real>((leap.from_K + leap.to_K) / 2));
+  }
+}
+
+/// Records of saved states: a burn that has ended adds nothing, and no integral exceeds the limit of its field.
+TYPED_TEST(GasKnock, AddsNothingBehindTheBurnsEndAndStaysWithinItsLimit) {
+  using Real = TypeParam;
+  const auto run = breathing<Real>(with_octane(60), 100e-6, 1000);
+  const auto& table = *run->storage.tables().knock;
+  const auto real = [](double x) { return static_cast<Real>(x); };
+  detail::KnockRecord<Real> knock{};
+  knock.pressure_Pa = real(100e5), knock.unburned_K = Real{1200}, knock.integral_ratio = real(0.5);
+  knock.burnt_ratio = real(0.97), knock.passes_deg = Real{7};
+  detail::CylinderBurn<Real> burn{};
+  burn.fuel_kg = Real{1}, burn.start_deg = -90;
+  for (const double burnt : {0.97, 0.96}) {
+    burn.burnt_ratio = real(burnt);
+    EXPECT_FALSE(detail::step_knock(knock, table, burn, real(100e5), real(1e-5), {0, 1000})) << burnt;
+    EXPECT_EQ(knock.integral_ratio, real(0.5)) << burnt;
+    EXPECT_EQ(knock.passes_deg, Real{7}) << burnt;
+  }
+  knock.integral_ratio = real(1e6), knock.burnt_ratio = burn.burnt_ratio = real(0.5);
+  EXPECT_LT(knock_delay_s(60, 100e5, 1200), 1e-3);
+  EXPECT_TRUE(detail::step_knock(knock, table, burn, real(100e5), real(2e-3), {0, 1000}));
+  EXPECT_EQ(knock.integral_ratio, real(1e6));
+}
+
+/// A saved state may say that a burn goes on whose start is still ahead: the step counts as one in the burn, as a
+/// whole, and the place where the integral passes 1 is in it.
+TYPED_TEST(GasKnock, CountsAWholeStepWhereItsRecordIsAheadOfTheBurnsStart) {
+  using Real = TypeParam;
+  const auto run = breathing<Real>(with_octane(95), 100e-6, 1000);
+  const auto real = [](double x) { return static_cast<Real>(x); };
+  detail::CylinderBurn<Real> burn{};
+  burn.fuel_kg = Real{1};
+  const double delay_s = knock_delay_s(95, 40e5, 900);
+  for (const double start_deg : {0.0, 10.0}) {
+    detail::KnockRecord<Real> knock{};
+    knock.pressure_Pa = real(40e5), knock.unburned_K = Real{900}, knock.integral_ratio = real(0.9);
+    burn.start_deg = real(start_deg);
+    const std::int64_t turned = std::int64_t{1} << 56;  // 2.8 deg, up to firing dead centre
+    EXPECT_TRUE(
+        detail::step_knock(knock, *run->storage.tables().knock, burn, real(40e5), real(delay_s / 4), {0, turned}));
+    EXPECT_NEAR(static_cast<double>(knock.integral_ratio), 1.15, 1e-5);
+    EXPECT_NEAR(static_cast<double>(knock.passes_deg), -720.0 / 256 * (1 - 0.1 / 0.25), 1e-3);
+  }
+}
+
 /// The reference by itself: 800 J without mass and ON 95, to the burn's end (another implementation's figures).
 TEST(BreathingOde, HasTheFactsOfKnock) {
   constexpr struct { double rpm, integral; } kFacts[] = {{1000, 3.46}, {2000, 1.83}, {4000, 0.99}};

@@ -404,6 +404,36 @@ TYPED_TEST(GasRunners, StandStillAtEqualPressures) {
   }
 }
 
+struct Measured : support::MeasuredCylinder {
+  static constexpr Manifold manifold = Manifold::throttle;
+  static constexpr bool runners = true;
+};
+
+/// Where a measured crank jumps, runners are filled anew as their manifolds are, and nothing moves in them.
+TYPED_TEST(GasRunners, AreFilledAnewAndAtRestWhereTheCrankJumps) {
+  using Real = TypeParam;
+  EngineDefinition definition = tuned();
+  definition.gas.crevice.volume_ratio = definition.gas.crevice.blow_by_m2 = 0;
+  const auto run = std::make_unique<Breathing<Real, Measured>>(definition, 100e-6);
+  run->in.throttle_ratio = static_cast<Real>(0.3);
+  const auto to = [&run](double deg) -> const auto& {
+    run->in.crank = tick_test::phase_at_deg(static_cast<long double>(deg));
+    return run->step();
+  };
+  double deg = 0;
+  (void)to(deg);
+  for (int tick = 0; tick < 1190; ++tick) ASSERT_EQ(to(deg += 2).faults, 0u) << tick;
+  const auto& out = run->engine.output();
+  for (int port = 0; port < kPorts; ++port)
+    EXPECT_GT(std::fabs(out.runner[0].flow_kg_s[port]), static_cast<Real>(1e-4)) << port;
+  EXPECT_EQ(to(deg + 200).faults, std::uint32_t{kFaultPhaseJump});
+  for (int port = 0; port < kPorts; ++port) {
+    EXPECT_EQ(out.runner[0].flow_kg_s[port], Real{0});
+    EXPECT_EQ(out.runner[0].port_pressure_Pa[port], run->engine.state().manifold[port].point.pressure_Pa);
+    EXPECT_NEAR(static_cast<double>(out.runner[0].port_pressure_Pa[port] / out.manifold[port].pressure_Pa), 1, 1e-2);
+  }
+}
+
 /// Manifolds of any size behind runners settle.
 TYPED_TEST(GasRunners, SettleWithManifoldsOfAnySize) {
   using Real = TypeParam;

@@ -181,6 +181,43 @@ TEST(CamRows, AutomaticSmoothingComesNearTheBestThatHindsightChooses) {
   }
 }
 
+/// Of rows far apart a lobe may keep a smaller residual and not a larger one. In the first, 7.7 um were proposed, and
+/// refused.
+TEST(CamRows, AreGivenASmoothingThatALobeKeeps) {
+  const CamProfile truth = true_cams()[0];
+  const auto is_kept = [](const Measured& table, CamRows& rows) {
+    CamProfile lobe;
+    return survey_rows(table.cam(0), rows).ok() && lobe.init(table.cam(rows.automatic_m)).ok();
+  };
+  CamRows rows;
+  Measured off(truth, -180, 173.9, 6);
+  off.points[17].lift_m += 20 * kUm;
+  EXPECT_TRUE(is_kept(off, rows));
+  EXPECT_NEAR(rows.automatic_m, 15 * kUm, 1 * kUm);
+
+  Random random;
+  int kept = 0, smallest = 0;
+  for (int draw = 0; draw < 100; ++draw) {
+    const double step_deg = std::pow(15, random.between(0, 1)), noise_m = 2e-6 * std::pow(1000, random.between(0, 1));
+    Measured table(truth, -180, 179.9 - step_deg, step_deg);
+    for (CamPoint& row : table.points) {
+      if (row.lift_m > 100 * kUm) row.lift_m += noise_m * random.between(-1, 1);
+    }
+    const Status survey = survey_rows(table.cam(0), rows);
+    if (!survey.ok()) {
+      EXPECT_EQ(survey.reason, Reason::no_solution);
+      EXPECT_GT(noise_m, 400 * kUm);
+      continue;
+    }
+    EXPECT_TRUE(is_kept(table, rows)) << random.trace(draw);
+    EXPECT_LE(rows.automatic_m, 1e-3);
+    ++kept;
+    if (rows.automatic_m == rows.smallest_m) ++smallest;  // nothing above it is kept
+  }
+  EXPECT_GT(kept, 70);
+  EXPECT_GT(smallest, 0);
+}
+
 TEST(CamRows, AreRefusedWhereTheyHaveNoLobeOnABaseCircle) {
   const CamProfile truth = true_cams()[0];
   CamRows rows;

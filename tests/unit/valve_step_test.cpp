@@ -549,6 +549,7 @@ TEST(ValveRounding, ToFloatMakesNoStepGrow) {
   for (int draw = 0; draw < 300; ++draw) {
     ValveTrain train = ohc_125_train();
     train.valve.valve_kg = logarithmic(random, 0.01, 0.5);
+    if (draw % 3 == 0) train.valve.spring_N_m = draw % 2 == 0 ? 0 : logarithmic(random, 1e-9, 1);
     train.valve.train_N_m = logarithmic(random, 1e6, 1e9);
     train.valve.seat_N_m = logarithmic(random, 1e6, 1e9);
     train.valve.train_damping_ratio = train.valve.guide_damping_ratio = train.valve.seat_damping_ratio = 0;

@@ -31,6 +31,8 @@ constexpr double kLargestBase_m = 50e-6;  ///< largest lift of a row on the base
 constexpr double kLargestSmoothing_m = 1e-3;
 constexpr double kTolerance = 1.01;  ///< relative, of smallest_m
 constexpr int kMaxTrials = 60;
+constexpr int kNextTrials = 20;  ///< of the next number of two digits; then by kTrialGrowth
+constexpr double kTrialGrowth = 1.1;
 
 struct Lobe {
   int first;
@@ -200,10 +202,17 @@ Status survey_rows(const Cam& cam, CamRows& rows) noexcept {
       rows.scatter_m <= kRoundingSigmas * rows.unit_m && rows.smallest_m <= kRoundingResidual * rows.unit_m;
   const double for_scatter_m = only_rounded ? rows.unit_m : kSigmas * rows.scatter_m;
   const double least_m = kAboveSmallest * rows.smallest_m;
-  rows.automatic_m = two_digits_up(for_scatter_m > least_m ? for_scatter_m : least_m);
   // A trimmed lobe may fail at a larger residual although it fitted at a smaller one.
-  for (int round = 0; round < kMaxTrials && !trial.keeps(rows.automatic_m); ++round)
-    rows.automatic_m = two_digits_up(kTolerance * rows.automatic_m);
+  rows.automatic_m = rows.smallest_m;
+  double trial_m = two_digits_up(for_scatter_m > least_m ? for_scatter_m : least_m);
+  if (trial_m > kLargestSmoothing_m) trial_m = kLargestSmoothing_m;
+  for (int round = 0; trial_m <= kLargestSmoothing_m; ++round) {
+    if (trial.keeps(trial_m)) {
+      rows.automatic_m = trial_m;
+      break;
+    }
+    trial_m = two_digits_up((round < kNextTrials ? kTolerance : kTrialGrowth) * trial_m);
+  }
   return {};
 }
 

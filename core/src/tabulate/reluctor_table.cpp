@@ -51,14 +51,20 @@ class WheelFlux {
       place += wheel.gaps[i].missing;
     }
     for (; place < wheel.places; ++place) there_[place] = true;
+    for (int tooth = wheel.places - 1; tooth >= 0; --tooth) {
+      if (there_[tooth] && !there_[(tooth + wheel.places - 1) % wheel.places]) first_ = tooth;
+    }
   }
 
   /// Without run-out, 0 to 1 turn. O(places).
   [[nodiscard]] Flux still(double turns) const noexcept {
+    double behind_gap = turns - static_cast<double>(first_) / wheel_.places;
+    if (behind_gap < 0) behind_gap += 1;
     Flux sum{};
-    for (int place = 0; place < wheel_.places; ++place) {
+    for (int i = 0; i < wheel_.places; ++i) {
+      const int place = (first_ + i) % wheel_.places;
       if (!there_[place]) continue;
-      const double x = turns - static_cast<double>(place) / wheel_.places;
+      const double x = behind_gap - static_cast<double>(i) / wheel_.places;
       add_tooth(place, x, sum);
       if (x > 1 - lobe_.end) add_tooth(place, x - 1, sum);  // comes again
     }
@@ -97,6 +103,7 @@ class WheelFlux {
   const Reluctor& sensor_;
   Lobe lobe_;
   bool there_[kMaxToothPlaces] = {};
+  int first_ = 0;  ///< tooth behind a gap, from which flux is counted; of a wheel without gaps any
 };
 
 }  // namespace

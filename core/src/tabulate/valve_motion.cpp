@@ -154,12 +154,16 @@ void never_grow(RegimeStep<float>& step) noexcept {
     const double yy = 1 + static_cast<double>(step.lift.lift) - static_cast<double>(step.lift.gap);
     const double vy = static_cast<double>(step.velocity.lift) - static_cast<double>(step.velocity.gap);
     const double vv = 1 + static_cast<double>(step.velocity.velocity);
-    if (yy * vv - static_cast<double>(step.lift.velocity) * vy <= 1) return;
-    if (magnitude(yy) > magnitude(vv)) {
-      step.velocity.velocity = neighbour(step.velocity.velocity, yy > 0);
-    } else {
-      step.lift.lift = neighbour(step.lift.lift, vv > 0);
-    }
+    const double above = yy * vv - static_cast<double>(step.lift.velocity) * vy - 1;
+    if (above <= 0) return;
+    const bool by_velocity = magnitude(yy) > magnitude(vv);
+    float& term = by_velocity ? step.velocity.velocity : step.lift.lift;
+    const double slope = by_velocity ? yy : vv;
+    // At once to where the determinant would be 1, which is thousands of millions of floats away where the term is next
+    // to 0; by one float at least.
+    const bool down = slope > 0;
+    const float next = neighbour(term, down), there = static_cast<float>(static_cast<double>(term) - above / slope);
+    term = (down ? there < next : there > next) ? there : next;
   }
 }
 

@@ -42,7 +42,8 @@ struct CamRows {
   int worst_row = 0;       ///< row with the largest deviation from the closest lobe
   double worst_off_m = 0;  ///< that row's lift less the lobe's; smallest_m or a little less, with its sign
   double automatic_m = 0;  ///< proposed cam.smoothing_m: unit_m for rows that are only rounded, else five times the
-                           ///< scatter; at least 1.5 smallest_m; two digits
+                           ///< scatter; at least 1.5 smallest_m, at most 1 mm; two digits. The next larger that a lobe
+                           ///< keeps, smallest_m itself if none does
 };
 
 /// Analyses a table; cam.smoothing_m is not read. Refuses what validate() refuses of the other fields, a cam that is
