@@ -88,4 +88,14 @@ done
 # ---- the list --------------------------------------------------------------------------------------------------------
 # Every line of it has a reason.
 awk '!/^#/ && NF > 0 && NF < 4 { print "tests/may_be_skipped.conf:" NR ": no reason"; bad = 1 } END { exit bad }' tests/may_be_skipped.conf || bad=$((bad + 1))
+
+# ---- the parts -------------------------------------------------------------------------------------------------------
+# Each runs what is its own: one without a line ends in "no command" only when it is run.
+own=$(sed -n '/^run_part()/,/^}/s/^    \([^*)]*\)) .*/\1/p' tools/check | tr '|\n' '  ')
+for part in $(sed -n "s/^\(all\|long\)_parts='\(.*\)'\$/\2/p" tools/check); do
+  case " $own " in
+    *" $part "*) ;;
+    *) echo "tools/check lists the part $part and does not run it" && bad=$((bad + 1)) ;;
+  esac
+done
 [ "$bad" -eq 0 ]
