@@ -361,7 +361,8 @@ TEXT
 - A valve that oscillated on a soft seat by more than its clearance was treated as quiet, and its contact with the train was missed: up to 120 um of error.
 - The accuracy class was promised for any valve; with Runge-Kutta it holds for vibrations of up to 0.24 mm (tools/lab/stress/stress_comparison.hpp).
 - A manifold near the largest outlet that set-up accepts, 80 volumes a tick, stayed full for good, without flow and without a fault bit, where the pressure behind it was
-  0.026 to 0.028 of its own; from 5 volumes a tick on, at some pressure ratios below 0.04, flow was up to ten times too large. No cylinder has valves so large.
+  0.026 to 0.028 of its own; short of that limit the formula gave up to ten times too much flow at some pressure ratios below 0.04 (docs/decisions/0015). No
+  cylinder has valves so large.
 - A reluctor with run-out at a wheel whose first tooth does not stand behind its gap was off by up to 0.0022 of its gain's 1 V at a run-out of 0.15, 0.006 at 0.5.
 - Automatic smoothing of measured cam rows could propose what set-up then refuses: of rows 6 deg apart with one of them 20 um off, 7.7 um.
 - Set-up in float of a train without any spring rate and without damping took some seconds.
