@@ -1,10 +1,15 @@
 // Where the fields of the C interface stand: a program that was compiled with an earlier header of this minor version
 // reads and writes them there.
 #include <crankloop/crankloop.h>
+#include <crankloop/crankloop_free_f.h>
 
 #include <gtest/gtest.h>
 
 #include <cstddef>
+#include <cstdio>
+#include <fstream>
+#include <sstream>
+#include <string>
 
 namespace crankloop::c_layout_test {
 namespace {
@@ -353,6 +358,22 @@ constexpr const char* kWhatToDo =
 TEST(CLayout, StaysAsItIsWithinAMinorVersion) {
   if (sizeof(void*) != 8 || alignof(double) != 8) GTEST_SKIP() << "the places are those of 64 bits";
   for (const Place& place : kPlaces) EXPECT_EQ(place.is, place.was) << place.name << kWhatToDo;
+}
+
+/// On a page: as much memory, in KiB.
+void expect_told(const std::string& page, const char* format, std::size_t bytes) {
+  char told[80];
+  std::snprintf(told, sizeof told, format, static_cast<double>(bytes) / 1024);
+  EXPECT_NE(page.find(told), std::string::npos) << told;
+}
+
+TEST(CLayout, HasTheSizesThatItsPageTells) {
+  if (sizeof(void*) != 8) GTEST_SKIP() << "the page has those of 64 bits";
+  std::ostringstream page;
+  page << std::ifstream(CRANKLOOP_SOURCE_DIR "/docs/c_interface.md").rdbuf();
+  expect_told(page.str(), "crankloop_free_f_tables tables;  // yours and zero at first: %.0f KiB,",
+              sizeof(crankloop_free_f_tables));
+  expect_told(page.str(), "crankloop_free_f_engine engine;  // %.1f KiB\n", sizeof(crankloop_free_f_engine));
 }
 
 }  // namespace

@@ -22,12 +22,12 @@ changed() {
   cp "$folder/kept" "$folder/$1"
 }
 "$script" "$folder" check
-changed docs/performance.md '/^| forces and torque [^\/]*$/s/ [0-9]/ 1&/'
+changed docs/performance.md '/^| motion, forces, torque [^\/]*$/s/ [0-9]/ 1&/'
 changed docs/performance.md '/^| forces and torque .*\//s/ [0-9]/ 1&/'
 changed docs/performance.md '/^| whole tick | library/s/1\.00/1.01/'
 changed docs/performance.md '/^| located RK4 .* 100 us/s/| 2/| 3/'
 changed docs/performance.md '/^| torque, 8 elastic valves/d'
-changed docs/measurements/host.md '/^| forces and torque/s/ [0-9]/ 1&/'
+changed docs/measurements/host.md '/^| motion, forces, torque/s/ [0-9]/ 1&/'
 changed docs/measurements/cortex_m4f.md '/^| ElasticValves | 100/s/ [0-9]/ 1&/6'
 changed docs/measurements/cortex_m4f.md '/^| ElasticValves | 20/s/ [0-9]/ 1&/6'
 changed docs/measurements/benchmark.md '/^| library | float | 1 deg/d'

@@ -28,6 +28,15 @@ class BreathingRun : public RunCommand {
     options.insert(options.begin(), {engine, "--rpm", std::to_string(rpm), "--no-warnings"});
     return line(run(options), name).first;
   }
+  /// four_2000.ini with these lines in its [gas].
+  [[nodiscard]] std::string with(const std::string& keys) const {
+    const std::string before = "[gas]\n";
+    std::string text = contents(kFour);
+    text.replace(text.find(before), before.size(), before + keys);
+    const std::string file = path("engine.ini");
+    std::ofstream(file) << text;
+    return file;
+  }
 };
 
 TEST_F(BreathingRun, TellsWhatItsTicksAddUpTo) {
@@ -95,14 +104,6 @@ TEST_F(BreathingRun, TellsWhatBlowsByWhereTheEngineHasCrevices) {
 }
 
 TEST_F(BreathingRun, IsTunedByItsRunners) {
-  const std::string before = "[gas]\n";
-  const auto with = [&](const std::string& keys) {
-    std::string text = contents(kFour);
-    text.replace(text.find(before), before.size(), before + keys);
-    const std::string file = path("runners.ini");
-    std::ofstream(file) << text;
-    return file;
-  };
   const std::string tuned = with("intake_runner_mm = 400\nintake_runner_diameter_mm = 38\n");
   const std::string csv = path("run.csv");
   const double charge = at("volumetric_efficiency", tuned, 4800, {"--tick-us", "50", "--csv", csv});
@@ -122,14 +123,6 @@ TEST_F(BreathingRun, IsTunedByItsRunners) {
 }
 
 TEST_F(BreathingRun, WarmsItsWallsUp) {
-  const std::string before = "[gas]\n";
-  const auto with = [&](const std::string& keys) {
-    std::string text = contents(kFour);
-    text.replace(text.find(before), before.size(), before + keys);
-    const std::string file = path("walls.ini");
-    std::ofstream(file) << text;
-    return file;
-  };
   const std::string csv = path("run.csv");
   (void)run({with("wall_J_per_K = 100\nexhaust_W_per_K = 8\n"), "--rpm", "3000", "--no-warnings", "--csv", csv});
   const Columns ticks(csv);
@@ -142,15 +135,27 @@ TEST_F(BreathingRun, WarmsItsWallsUp) {
   EXPECT_NE(contents(path("err")).find("wall_J_per_K"), std::string::npos) << contents(path("err"));
 }
 
-TEST_F(BreathingRun, TellsHowNearItComesToKnock) {
-  const std::string before = "[gas]\n";
-  const auto with = [&](const std::string& keys) {
-    std::string text = contents(kFour);
-    text.replace(text.find(before), before.size(), before + keys);
-    const std::string file = path("knock.ini");
-    std::ofstream(file) << text;
-    return file;
+TEST_F(BreathingRun, SaysWhereItsWallsEndUp) {
+  const auto walls = [&](const std::string& heat_capacity, const std::string& wall_C) {
+    return with("wall_W_per_K = 40\nwall_J_per_K = " + heat_capacity + "\nwall_C = " + wall_C + "\n");
   };
+  // Thin walls get there within the run.
+  const std::string warm = run({walls("50", "100"), "--rpm", "3000", "--no-warnings", "--cycles", "400"});
+  const double end_K = line(warm, "wall_temperature").first;
+  EXPECT_EQ(warm.find("settle near"), std::string::npos) << warm;
+  std::string wall_C = "100";
+  for (int round = 0; round < 2; ++round) {  // the warmer the walls, the less heat they take
+    const std::string begun = run({walls("2000", wall_C), "--rpm", "3000", "--no-warnings"});
+    EXPECT_NEAR(line(begun, "wall_temperature").first, std::stod(wall_C) + 273.15, 5);
+    const std::string words = "set wall_C = ";
+    const std::size_t at = begun.find(words);
+    if (at == std::string::npos) break;
+    wall_C = std::to_string(std::stoi(begun.substr(at + words.size())));
+  }
+  EXPECT_NEAR(std::stod(wall_C) + 273.15, end_K, 4);
+}
+
+TEST_F(BreathingRun, TellsHowNearItComesToKnock) {
   const std::string file = with("octane = 95\n");
   const double at_2000 = at("knock_integral", file, 2000);
   EXPECT_GT(at_2000, 0.5);
@@ -163,14 +168,6 @@ TEST_F(BreathingRun, TellsHowNearItComesToKnock) {
 }
 
 TEST_F(BreathingRun, BurnsByItsCharge) {
-  const std::string before = "[gas]\n";
-  const auto with = [&](const std::string& keys) {
-    std::string text = contents(kFour);
-    text.replace(text.find(before), before.size(), before + keys);
-    const std::string file = path("charge.ini");
-    std::ofstream(file) << text;
-    return file;
-  };
   const std::string file = with("burn_by = charge\nspark_to_start_deg = 5\n");
   const auto duration = [&](double rpm, const std::vector<std::string>& more) {
     return at("burn_by_charge_duration", file, rpm, more);

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "crankloop/engine_file/engine_file.hpp"
+#include "crankloop/files/number.hpp"
 #include "crankloop/loops/free_forces.hpp"
 #include "support/files.hpp"
 #include "support/run_command.hpp"
@@ -198,6 +199,24 @@ TEST(FootForces, OfACommandAreThoseOfTorqueAndFreeForce) {
   EXPECT_EQ(found.count("residual_force_first_N"), 0u) << "the file has no balancers";
   EXPECT_EQ(balance({kOhc, "--rpm", "7000", "--no-warnings"}).count("mount_front_plus_max_up_N"), 0u);
   EXPECT_THROW(kBalance.run(Arguments(kBalance, {kOhc, "--rpm", "7000", "--mount-width-mm", "300"})), UsageError);
+}
+
+TEST(Balance, PrintsNoRoundingForTheFeet) {
+  const EngineFile bare = read_engine_file(kOhc, {});
+  const Masses& masses = bare.definition().masses;
+  const double kg_m = (masses.reciprocating_kg() / 2 + masses.rod_big_end_kg + masses.crank_pin_equivalent_kg) *
+                      bare.definition().crank.crank_radius_m;
+  const support::TemporaryFolder folder;
+  const std::string file = folder / "balanced.ini";
+  std::ofstream(file) << contents(kOhc) << "\n[counterweight 1]\nmass_g = " << shortest(kg_m * 1e6 / 40)
+                      << "\nradius_mm = 40\nposition_mm = 0\n[balance_shaft 1]\nmass_g = "
+                      << shortest(masses.reciprocating_kg() / 2 * bare.definition().crank.crank_radius_m * 1e6 / 10)
+                      << "\nradius_mm = 10\nturns = 1\ndirection = against\nangle_deg = 180\nposition_mm = 0\n";
+  const std::map<std::string, double> found =
+      balance({file, "--rpm", "7000", "--mount-width-mm", "300", "--mount-length-mm", "400", "--no-warnings"});
+  EXPECT_GT(found.at("mount_front_plus_max_up_N"), 100);
+  EXPECT_EQ(found.at("mount_front_plus_max_lateral_N"), 0);
+  EXPECT_EQ(found.at("mount_rear_minus_min_lateral_N"), 0);
 }
 
 /// In the report and in `show`, which reads back as the same file. The single's first order with its rotating mass, by

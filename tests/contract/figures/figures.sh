@@ -105,12 +105,12 @@ groups() {
 # ---- docs/measurements/host.md ---------------------------------------------------------------------------------------
 
 example_rows() {  # example_rows REAL
-  scene_row "kinematics only" "PistonMotion_$1"
-  scene_row "torque only" "TorqueOnly_$1"
-  scene_row "forces and torque" "ForcesAndTorque_$1"
-  scene_row "valve kinematics, 8 valves" "ValveLift_$1"
-  scene_row "valve dynamics, 8 valves" "ValveDynamics_$1"
-  scene_row "the whole engine" "WholeEngine_$1"
+  scene_row "piston motion" "PistonMotion_$1"
+  scene_row "mean torque" "TorqueOnly_$1"
+  scene_row "motion, forces, torque" "ForcesAndTorque_$1"
+  scene_row "8 cam-following valves" "ValveLift_$1"
+  scene_row "8 elastic valves" "ValveDynamics_$1"
+  scene_row "everything, 8 elastic valves, their forces and results" "WholeEngine_$1"
 }
 
 # shellcheck disable=SC2016  # code in Markdown

@@ -29,6 +29,12 @@ std::vector<std::string> needed_sections() { return {"engine", "crank", "masses"
 /// 0 is printed.
 constexpr double kRoundingRatio = 1e-9;
 
+/// Of free forces: this share of a cylinder's inertia force.
+double rounding_force_N(const EngineDefinition& definition, double speed_rad_s) {
+  return kRoundingRatio * definition.masses.reciprocating_kg() * definition.crank.crank_radius_m * speed_rad_s *
+         speed_rad_s;
+}
+
 double without_rounding(double amplitude, double rounding) { return amplitude > rounding ? amplitude : 0; }
 
 /// Masses alone do no work in a cycle, so nothing is left of it but rounding, of which no efficiency can be made.
@@ -59,7 +65,7 @@ class TurningWriter {
   TurningWriter(Summary& s, const EngineDefinition& definition, double speed_rad_s)
       : s_{s},
         w2_{speed_rad_s * speed_rad_s},
-        rounding_N_{kRoundingRatio * definition.masses.reciprocating_kg() * definition.crank.crank_radius_m * w2_},
+        rounding_N_{rounding_force_N(definition, speed_rad_s)},
         rounding_Nm_{rounding_N_ * arm_m(definition)} {}
 
   void write(const std::string& name, const TurningForce& t) {
@@ -163,7 +169,10 @@ void write_bearings(Summary& s, std::uint32_t count, const BearingRanges& r) {
 class MountRanges {
  public:
   MountRanges(const EngineFile& engine, const Mounts& mounts, double speed_rad_s)
-      : free_(engine.definition(), engine.balancers()), mounts_{mounts}, speed_rad_s_{speed_rad_s} {}
+      : free_(engine.definition(), engine.balancers()),
+        mounts_{mounts},
+        speed_rad_s_{speed_rad_s},
+        rounding_N_{rounding_force_N(engine.definition(), speed_rad_s)} {}
 
   void take(double engine_deg, double tilting_Nm) {
     const FreeLoad load = free_.at(engine_deg, speed_rad_s_);
@@ -176,17 +185,22 @@ class MountRanges {
   void write(Summary& s) const {
     for (std::size_t i = 0; i < kFeet; ++i) {
       const std::string mount = std::string("mount_") + kFeetOf[i].name + "_";
-      s.line(mount + "max_up_N", up_[i].most);
-      s.line(mount + "max_down_N", -up_[i].least);
-      s.line(mount + "max_lateral_N", lateral_[i].most);
-      s.line(mount + "min_lateral_N", lateral_[i].least);
+      line(s, mount + "max_up_N", up_[i].most);
+      line(s, mount + "max_down_N", -up_[i].least);
+      line(s, mount + "max_lateral_N", lateral_[i].most);
+      line(s, mount + "min_lateral_N", lateral_[i].least);
     }
   }
 
  private:
+  void line(Summary& s, const std::string& name, double force_N) const {
+    s.line(name, std::abs(force_N) > rounding_N_ ? force_N : 0);
+  }
+
   FreeForces free_;
   Mounts mounts_;
   double speed_rad_s_;
+  double rounding_N_;
   Range up_[kFeet];
   Range lateral_[kFeet];
 };

@@ -59,7 +59,6 @@ void add_order(Summary& s, const GasOrder& order) {
 }
 
 double fuel_kg_s(const EngineDefinition& engine, const GasFigures& figures, double speed_rad_s) noexcept {
-  constexpr double kCycle_rad = 12.566370614359172;
   return figures.cycle.fuel_kg * engine.layout.cylinders * speed_rad_s / kCycle_rad;
 }
 
@@ -89,6 +88,17 @@ std::string remark_on_lambda(const Gas& gas, double lambda) {
   if (lambda > kLeanestThatIgnites && !(gas.second_ratio > 0))
     return "lambda: so lean a mixture of gasoline does not ignite; here all of it burns";
   return "lambda; 0: no fuel";
+}
+
+/// Where walls that warm up would end at their present heat: a run of some cycles sees the begin of it.
+std::string remark_on_walls(const Walls& walls, const GasFigures& figures) {
+  constexpr double kSettled_K = 5;
+  const std::string now = "of a cylinder's walls, at the end";
+  if (!(walls.to_coolant_W_K > 0)) return now + "; they give no heat to the coolant: wall_W_per_K is 0";
+  const double end_K = walls.coolant_K + figures.wall_heat_W / walls.to_coolant_W_K;
+  if (std::abs(end_K - figures.wall_K) <= kSettled_K) return now;
+  return now + "; at this heat they settle near " + brief(std::round(end_K)) +
+         " K within minutes: for a warm engine set wall_C = " + brief(std::round(end_K - 273.15));
 }
 
 void add_gas(Summary& s, const EngineDefinition& engine, const GasFigures& figures) {
@@ -125,6 +135,8 @@ void add_gas(Summary& s, const EngineDefinition& engine, const GasFigures& figur
   s.line("exhaust_temperature", cycle.exhaust_K, "K", "of the gas that leaves through the exhaust valve");
   s.line("heat", cycle.heat_J, "J", "of combustion, of a cylinder's cycle");
   s.line("wall_heat", cycle.wall_heat_J, "J");
+  if (engine.gas.walls.capacity_J_K > 0)
+    s.line("wall_temperature", figures.wall_K, "K", remark_on_walls(engine.gas.walls, figures));
   if (engine.gas.crevice.any())
     s.line("blow_by", figures.blow_by_kg * 1e6, "mg", "into the crankcase, of a cylinder's cycle");
 }

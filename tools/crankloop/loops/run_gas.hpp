@@ -124,12 +124,16 @@ template <class Real, std::size_t Capacity>
 /// beside the residual, whatever the kind of combustion chamber (Heywood, section 9.4).
 inline constexpr double kMaxResidualThatBurns = 0.4;
 
+inline constexpr double kCycle_rad = 12.566370614359172;
+
 /// Results of the gas in a run.
 struct GasFigures {
   GasCycle<double> cycle{};  ///< mean_cycle at the end
   double intake_Pa = 0;      ///< of the manifold, mean over the ticks
   double exhaust_Pa = 0;
   double exhaust_manifold_K = 0;
+  double wall_K = 0;                                 ///< of a cylinder's walls at the end, their mean
+  double wall_heat_W = 0;                            ///< into those of a cylinder, mean of its last whole cycle
   double blow_by_kg = 0;                             ///< of a cylinder's cycle, their mean
   double knock_integral = 0;                         ///< largest of the cylinders
   double knock_deg = 0;                              ///< earliest of the cylinders that passed 1; 0: none did
@@ -137,16 +141,19 @@ struct GasFigures {
   double exhaust_lambda = 0, sensor_lambda = 0;      ///< at the end; 0: no lambda sensor
 };
 
-/// Figures of the cylinders' last whole cycles.
+/// Figures of the cylinders' last whole cycles, at this speed.
 template <class Real, class S>
-void take_cycles(const crankloop::Output<Real, S>& out, std::size_t cylinders, GasFigures& figures) {
+void take_cycles(const crankloop::Output<Real, S>& out, std::size_t cylinders, double speed_rad_s,
+                 GasFigures& figures) {
   figures.cycle = mean_cycle(out.gas_cycle, cylinders);
-  figures.blow_by_kg = figures.burn_start_deg = figures.burn_duration_deg = 0;
+  figures.wall_heat_W = figures.cycle.wall_heat_J * speed_rad_s / kCycle_rad;
+  figures.wall_K = figures.blow_by_kg = figures.burn_start_deg = figures.burn_duration_deg = 0;
   figures.knock_integral = figures.knock_deg = 0;
   figures.exhaust_lambda = static_cast<double>(out.exhaust_excess_air_ratio);
   figures.sensor_lambda = static_cast<double>(out.sensor_excess_air_ratio);
   const double share = 1 / static_cast<double>(cylinders);
   for (std::size_t k = 0; k < cylinders; ++k) {
+    figures.wall_K += static_cast<double>(out.wall_K[k]) * share;
     figures.blow_by_kg += static_cast<double>(out.cycle_blow_by_kg[k]) * share;
     const auto knock = static_cast<double>(out.knock_integral[k]), knock_deg = static_cast<double>(out.knock_deg[k]);
     if (knock >= 1 && (figures.knock_integral < 1 || knock_deg < figures.knock_deg)) figures.knock_deg = knock_deg;

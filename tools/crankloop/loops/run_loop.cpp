@@ -11,8 +11,6 @@
 namespace crankloop::program {
 namespace {
 
-constexpr double kRadPerCycle = 4 * kPi;
-
 /// Integral over the first part (0 to 1) of a tick, of the parabola that has the tick's torque at both ends and its
 /// mean.
 double part_of_tick(double start_Nm, double end_Nm, double mean_Nm, double part) {
@@ -87,7 +85,7 @@ RunFigures run_cycles(FixedStepLoop<Real, S>& loop, const EngineDefinition& defi
     }
     if (on_tick) on_tick(tick, engine_deg, out);
   }
-  if constexpr (detail::Needs<S>::gas) take_cycles(loop.output(), cylinders, f.gas);
+  if constexpr (detail::Needs<S>::gas) take_cycles(loop.output(), cylinders, operation.speed_rad_s(), f.gas);
   for (std::size_t t = 0; t < f.valves.size(); ++t) {
     for (std::size_t k = 0; k < cylinders; ++k) {
       f.valves[t].last_cycle = worse_of(f.valves[t].last_cycle, in_double(loop.output().valve_cycle[t][k]));
@@ -95,7 +93,7 @@ RunFigures run_cycles(FixedStepLoop<Real, S>& loop, const EngineDefinition& defi
   }
   f.mean_torque_Nm = torque_sum_Nm / span;
   f.power_W = f.mean_torque_Nm * operation.speed_rad_s();
-  f.net_mep_Pa = f.mean_torque_Nm * kRadPerCycle / (layout.cylinders * swept_volume_m3(definition.crank));
+  f.net_mep_Pa = f.mean_torque_Nm * kCycle_rad / (layout.cylinders * swept_volume_m3(definition.crank));
   return f;
 }
 

@@ -148,6 +148,11 @@ std::vector<std::string> EngineMap::doubts() const {
     doubts.push_back(of_points(knocking) + " points have a knock integral of 1 or more: a real engine knocks there, " +
                      (request.best_spark ? "before it reaches this torque." : "and would burn later."));
   }
+  if (const Gas& gas = file.definition().gas; gas.walls.capacity_J_K > 0) {
+    doubts.push_back(
+        "A point lasts some cycles, so its walls are still near wall_C = " + brief(std::round(gas.wall_K - 273.15)) +
+        ": `crankloop run` at a point says where they settle (wall_temperature).");
+  }
   return doubts;
 }
 

@@ -10,7 +10,6 @@ namespace crankloop::program {
 namespace {
 
 constexpr double kDegPerSample = 720.0 / kSamplesPerCycle;
-constexpr double kCycle_rad = 4 * kPi;
 
 /// The cubic over s from 0 to 1 with given values and slopes at both ends.
 double cubic(double begin, double end, double slope_begin, double slope_end, double s) {

@@ -151,7 +151,8 @@ FreeFigures run_ticks(const EngineFile& file, const EngineDefinition& definition
     progress.step();
   }
   if constexpr (detail::Needs<S>::gas)
-    take_cycles(loop.output(), static_cast<std::size_t>(definition.layout.cylinders), figures.gas);
+    take_cycles(loop.output(), static_cast<std::size_t>(definition.layout.cylinders),
+                std::fabs(loop.state().speed_rad_s), figures.gas);
   for (const std::size_t k : misfiring_cylinders(definition)) figures.misfires.push_back({k, loop.misfires_of(k)});
   figures.end = loop.state();
   if (request.is_hashed) figures.hash = hash.text();
