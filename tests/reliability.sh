@@ -166,7 +166,7 @@ runs() {
     [ "$part" = mutants ] || run "long-$part" "${title# }" "$(tail -n 1 "$logs/long-$part.log" 2>/dev/null)"
   done
   run threads 'threads under the thread sanitizer' "$(tests_of threads)"
-  run numerical 'numerical sanitizer' "no verdict; lines below"
+  run numerical 'numerical sanitizer: the tick in float beside double' "no verdict; $(($(wc -l <"$logs/numerical.log") - 1)) lines named"
   run coverage 'branch coverage by the host tests' "$(sed -n 's/^branches_covered = //p' "$logs/coverage.log") of $(sed -n 's/^branches = //p' "$logs/coverage.log") branches"
   run page_soak 'the page in Chromium for ten minutes, a change each half minute' "$(tail -n 1 "$logs/page_soak.log")"
   mutants_row
@@ -332,9 +332,9 @@ TEXT
   if [ -s "$logs/numerical.log" ]; then
     cat <<'TEXT'
 
-The numerical sanitizer (clang 19) runs the tick in float, computes each number in double as well, and names each line where the two differ by more than 2^-10.
-It cannot pass or fail: differences of nearly equal lifts, and values near zero, must lose digits. The effect on the outputs is the error of the lift in float, which the stress
-test and docs/performance.md measure. The lines it names most often:
+The numerical sanitizer (clang 19, `tests/numerical_sanitizer.sh`) runs two engines in float up through the speeds, one with eight elastic valves, one that breathes through them and burns. It computes
+each number in double as well, and names each line where the two differ by more than 2^-10. It cannot pass or fail: differences of nearly equal lifts or pressures, and values near zero, must lose
+digits. The effect on the outputs is the error in float, which the stress test and docs/performance.md measure. The lines where they part most:
 
 TEXT
     sed -n '2,9p' "$logs/numerical.log"
