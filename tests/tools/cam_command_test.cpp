@@ -10,6 +10,8 @@
 #include <string>
 #include <vector>
 
+#include "crankloop/commands/cam/cam_wanted.hpp"
+#include "crankloop/engine_file/engine_file.hpp"
 #include "support/files.hpp"
 #include "support/markup.hpp"
 #include "support/run_command.hpp"
@@ -219,6 +221,26 @@ TEST_F(CamCommand, SaysWhyThereIsNoCamForALift) {
       has,
       said(wanted("far.csv", [](double deg) { return 60 * std::pow(std::max(0.0, 1 - deg * deg / 9025), 5) - 0.05; })),
       "screw or pad cannot stand");
+}
+
+TEST_F(CamCommand, NamesAMisreadRowOfTheWantedLift) {
+  const Rocker rocker = read_engine_file(kOhc125, {}).trains()[0].definition.rocker;
+  const std::string given = contents(kWanted125);
+  EXPECT_EQ(cam_for_lift(kWanted125, rocker, {}).misread, "");
+  const std::size_t at = given.find("\n10,") + 4;
+  const std::size_t end = given.find('\n', at);
+  const auto line =
+      std::to_string(1 + std::count(given.begin(), given.begin() + static_cast<std::ptrdiff_t>(at), '\n'));
+  const auto misread_by = [&](double mm) {
+    std::string text = given;
+    return write("w.csv", text.replace(at, end - at, std::to_string(std::stod(given.substr(at)) + mm)));
+  };
+  const std::string told = cam_for_lift(misread_by(0.2), rocker, {}).misread;
+  EXPECT_NE(told.find("the row at 10 deg (" + in("w.csv") + ":" + line + "), which lies 200 um off its neighbours"),
+            std::string::npos)
+      << told;
+  const std::string said = refusal({kOhc125, "--wanted", misread_by(3)});
+  EXPECT_NE(said.find("w.csv:" + line + ": no smooth lift"), std::string::npos) << said;
 }
 
 TEST_F(CamCommand, RefusesALiftThatLeavesTheBaseCircleWithAStepInSpeed) {

@@ -138,6 +138,18 @@ TEST_F(Inputs, ThatStayAreTheOptions) {
   EXPECT_EQ(contents(path("options.csv")), contents(path("inputs_run.csv")));
 }
 
+TEST_F(Inputs, ExcludeTheOptionsOfTheSameInput) {
+  const std::string columns = " --inputs " + file("time_s,load_ratio,cut_cylinders\n0,1,0\n");
+  const std::string words = std::string(kSample) + " --free --from-rpm 1000 --seconds 0.01" + columns;
+  EXPECT_EQ(status_of(words), 0);
+  for (const std::string option : {"--load-ratio 0", "--cut 1,2"}) {
+    EXPECT_EQ(status_of(words + " " + option), 2);
+    EXPECT_NE(contents(path("err")).find(option.substr(0, option.find(' ')) + " and the column "), std::string::npos)
+        << contents(path("err"));
+  }
+  EXPECT_EQ(status_of(words + " --starter"), 0);
+}
+
 /// What goes in comes out or is kept, each figure by a way of its own, while load, cylinders and the torque change.
 TEST_F(Inputs, KeepTheBooksOfEnergy) {
   const std::string summary = run(

@@ -384,6 +384,15 @@ TEST_F(LiftCommand, NamesTheSmallestSmoothingAndTheRowThatIsToBlame) {
   const std::string lies = " lies ";
   EXPECT_NEAR(std::stod(message.substr(message.find(lies) + lies.size())), smallest_um, 0.03 * smallest_um);
 
+  // A lost decimal point, and a digit misread by one, wherever they are.
+  for (const std::string deg : {"-60", "-42", "-22", "-8", "0", "13", "35", "58"}) {
+    const double true_mm = std::stod(given.substr(given.find("\n" + deg + ",") + deg.size() + 2));
+    for (const double misread : {10 * true_mm, true_mm + 0.1}) {
+      write("cam.csv", with_line(given, deg + ",", deg + "," + std::to_string(misread)));
+      EXPECT_NE(refusal(engine).find(" row at " + deg + " deg"), std::string::npos)
+          << misread << ": " << refusal(engine);
+    }
+  }
   write("cam.csv", with_line(given, "-30,", "-30,40"));
   EXPECT_NE(refusal(engine).find("no smooth lobe comes within 1000 um of every row; check the row at -30 deg"),
             std::string::npos)

@@ -271,6 +271,32 @@ TEST_F(Unusual, AMotoredTraceThatPeaksLongBeforeDeadCentreIsTold) {
               "the motored pressure is largest 2.5 deg before top dead centre");
 }
 
+TEST_F(Unusual, ATraceThatLacksRowsIsTold) {
+  const Engine engine = measured(0, false);
+  const std::string whole = bad_input::contents(folder_ / "trace.csv");
+  const auto told_without = [&](double from_deg, double to_deg, const std::string& more = "") {
+    std::string kept;
+    for (const std::string& line : bad_input::lines_of(whole)) {
+      const double deg = line[0] == 'c' ? -1 : std::stod(line);
+      if (deg <= from_deg || deg >= to_deg) kept += line + "\n";
+    }
+    write("trace.csv", kept + more);
+    std::string all;
+    for (const std::string& line : warnings(engine)) all += line + "\n";
+    return all;
+  };
+  EXPECT_NE(told_without(20, 200).find("no row between 20 and 200 deg, where others are 0.5 deg apart"),
+            std::string::npos);
+  EXPECT_NE(told_without(690, 721).find("no row between 690 and 720 deg"), std::string::npos)
+      << "the first row follows";
+  EXPECT_EQ(told_without(300, 315), "");
+  EXPECT_NE(told_without(300, 316), "");
+  const std::string first = whole.substr(whole.find("\n0,") + 3, 6);
+  EXPECT_EQ(told_without(0, 0, "720," + first + "\n"), "");
+  EXPECT_NE(told_without(0, 0, "720,1\n").find("the row at 720 deg, 1 kPa, is the same place as that at 0 deg"),
+            std::string::npos);
+}
+
 TEST_F(Unusual, AFlameOfGasolineAndAnOctaneNumberInADieselAreTold) {
   const Engine diesel(bad_input::contents(CRANKLOOP_SOURCE_DIR "/tools/engines/diesel_495_gas.ini"));
   EXPECT_TRUE(warnings(diesel).empty());
@@ -318,6 +344,41 @@ TEST_F(MeasuredCam, AMisreadRowThatRaisesTheSmoothingIsTold) {
   for (const std::string& row : rows) table += row + "\n";
   write("cam.csv", table);
   expect_only(engine, "smoothing_um", "the row at -30 deg (" + (folder_ / "cam.csv") + ":152)");
+}
+
+TEST_F(MeasuredCam, ALobeThatLacksRowsIsTold) {
+  const Engine engine = with_cam(0, 1, "auto");
+  const auto told_without = [&](double from_deg, double to_deg) {
+    std::string kept;
+    for (const std::string& line : bad_input::lines_of(bad_input::contents(folder_ / "cam.csv"))) {
+      const double deg = line[0] == 'c' ? from_deg : std::stod(line);
+      if (deg <= from_deg || deg >= to_deg) kept += line + "\n";
+    }
+    write("cam.csv", kept);
+    return warnings(engine);
+  };
+  EXPECT_TRUE(told_without(-179, -110).empty()) << "base circle";
+  const std::vector<std::string> told = told_without(-20, 20);
+  ASSERT_EQ(told.size(), 1u);
+  EXPECT_NE(told[0].find("no row between -20 and 20 deg, where others are 1 deg apart"), std::string::npos) << told[0];
+}
+
+TEST_F(MeasuredCam, ALiftInAnotherUnitIsTold) {
+  const Engine engine = with_cam(0, 1, "auto");
+  const std::string table = bad_input::contents(folder_ / "cam.csv");
+  for (const double mm_per_unit : {1000.0, 25.4}) {
+    std::string other = "cam_deg,lift_mm\n";
+    for (const std::string& line : bad_input::lines_of(table)) {
+      const std::size_t comma = line.find(',');
+      if (line[0] != 'c')
+        other += line.substr(0, comma + 1) + shortest(std::stod(line.substr(comma + 1)) / mm_per_unit) + "\n";
+    }
+    write("cam.csv", other);
+    std::string all;
+    for (const std::string& line : warnings(engine)) all += line;
+    EXPECT_NE(all.find("cam.csv: lift_mm up to 0."), std::string::npos) << all;
+    EXPECT_NE(all.find("is it in mm?"), std::string::npos) << all;
+  }
 }
 
 TEST_F(Unusual, WarningsStandOnStderrAndInTheReportUnlessSilenced) {

@@ -8,6 +8,7 @@
 #include "../files/words.hpp"
 #include "engine_file.hpp"
 #include "engine_file_parts.hpp"
+#include "measured_rows.hpp"
 
 namespace crankloop::program {
 namespace {
@@ -178,12 +179,6 @@ std::string three_digits_up(double value) {
 }
 
 /// "-30 deg (cam.csv:152)"
-std::string row_in_words(const TrainOfFile& train, int row) {
-  const auto i = static_cast<std::size_t>(row);
-  return brief(train.points[i].cam_deg) + " deg (" + train.points_path + ":" + std::to_string(train.point_lines[i]) +
-         ")";
-}
-
 /// The message for a geometry that ValveLift refused; empty for other refusals.
 std::string geometry_in_words(std::string_view field, const std::string& at) {
   if (field == "rocker.base_circle_m")
@@ -206,23 +201,30 @@ InputError EngineFile::explain_cam(const Status& status, const TrainOfFile& trai
   const bool has_row = status.index >= 0 && static_cast<std::size_t>(status.index) < train.point_lines.size();
   const int line = has_row ? train.point_lines[static_cast<std::size_t>(status.index)] : train.point_lines.back();
   const Value& smoothing = *cam.find("smoothing_um");
+  const MeasuredRows measured{train.points_path, train.points, train.point_lines};
   CamRows rows;
   const Status survey = survey_rows(train.definition.cam, rows);
+  const std::optional<OddRow> odd = odd_row(train.points, rows.scatter_m);
   const bool follows = survey.ok();
   if (status.reason == Reason::no_solution) {
     const std::string refused =
         "smoothing_um: " + (smoothing.is_open() ? "auto" : shortest(smoothing.numbers[0])) + " has no solution: ";
     if (!follows) {
-      return InputError(path_, smoothing.line,
-                        refused + "no smooth lobe comes within 1000 um of every row; check the row at " +
-                            row_in_words(train, std::max(survey.index, 0)));
+      return InputError(
+          path_, smoothing.line,
+          refused + "no smooth lobe comes within 1000 um of every row; check the row at " +
+              row_in_words(measured, odd ? odd->row : static_cast<std::size_t>(std::max(survey.index, 0))));
     }
     return InputError(path_, smoothing.line,
                       refused + "no smooth lobe comes that close to every row; smallest possible: " +
                           three_digits_up(rows.smallest_m * 1e6) + ", for which the row at " +
-                          row_in_words(train, rows.worst_row) + " lies " +
+                          row_in_words(measured, static_cast<std::size_t>(rows.worst_row)) + " lies " +
                           three_digits_up(std::abs(rows.worst_off_m) * 1e6) + " um " +
-                          (rows.worst_off_m > 0 ? "above" : "below") + " the lobe; allow more, or correct that row");
+                          (rows.worst_off_m > 0 ? "above" : "below") + " the lobe; allow more, or correct " +
+                          (!odd || odd->row == static_cast<std::size_t>(rows.worst_row)
+                               ? "that row"
+                               : "the row at " + row_in_words(measured, odd->row) + ", which lies " +
+                                     three_digits_up(std::abs(odd->off_m) * 1e6) + " um off its neighbours"));
   }
   std::string message = "the cam " + std::string(describe(status.reason));
   if (status.reason == Reason::too_few_points)

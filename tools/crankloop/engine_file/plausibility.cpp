@@ -13,6 +13,7 @@
 #include "../files/units.hpp"
 #include "../files/words.hpp"
 #include "lobe_feet.hpp"
+#include "measured_rows.hpp"
 #include "usual_ranges.hpp"
 
 namespace crankloop::program {
@@ -100,13 +101,6 @@ EngineSize look_at_crank(const EngineFile& engine, Warnings& warnings) {
   return size;
 }
 
-/// Rounded to two digits, because the range is approximate.
-std::string about(double value) {
-  if (value == 0) return "0";
-  const double digit = std::pow(10, std::floor(std::log10(std::abs(value))) - 1);
-  return brief(std::round(value / digit) * digit);
-}
-
 void look_at_value(const Value& value, const EngineSize& size, Warnings& warnings) {
   const UsualRange* const range = usual_range_of(*value.key);
   if (range == nullptr || value.line == 0 || !value.used) return;
@@ -156,21 +150,12 @@ void look_at_cams(const EngineFile& engine, Warnings& warnings) {
   }
 }
 
-/// A row is suspicious if its deviation from the lobe exceeds this and a multiple of the rows' scatter.
-constexpr double kMisread_m = 5e-6;
-constexpr double kMisreadSigmas = 5;
-
 void look_at_misread_rows(const SectionValues& cam, const TrainOfFile& train, Warnings& warnings) {
   if (!train.rows) return;
-  const CamRows& rows = *train.rows;
-  if (rows.smallest_m < std::max({kMisread_m, kMisreadSigmas * rows.scatter_m, rows.unit_m})) return;
-  const auto row = static_cast<std::size_t>(rows.worst_row);
+  const std::string misread = misread_row({train.points_path, train.points, train.point_lines}, *train.rows);
+  if (misread.empty()) return;
   warnings.add(cam.line_of("smoothing_um"),
-               "smoothing_um = auto becomes " + brief(cam.number("smoothing_um")) + " because of the row at " +
-                   brief(train.points[row].cam_deg) + " deg (" + train.points_path + ":" +
-                   std::to_string(train.point_lines[row]) + "), which lies " + about(std::abs(rows.worst_off_m) * 1e6) +
-                   " um off every smooth lobe, where the rows scatter by " + about(rows.scatter_m * 1e6) +
-                   " um: was it misread?");
+               "smoothing_um = auto becomes " + brief(cam.number("smoothing_um")) + " because of " + misread);
 }
 
 /// Of a cam's largest speed: ramps begin with up to a tenth of it, a lift less a clearance of 0.1 mm with a fifth.
@@ -189,10 +174,49 @@ void look_at_feet(const SectionValues& cam, const TrainOfFile& train, Warnings& 
                                         "included, and clearance_mm the clearance");
 }
 
-void look_at_measured_cams(const EngineFile& engine, Warnings& warnings) {
+std::string in_words(const Gap& gap) {
+  return "no row between " + brief(gap.from_deg) + " and " + brief(gap.to_deg) + " deg, where others are " +
+         brief(gap.usual_deg) + " deg apart";
+}
+
+/// A lobe's rows, with the last of the base circle on either side.
+std::vector<double> angles_of_lobe(const TrainOfFile& train) {
+  constexpr double kBase_m = 50e-6;
+  std::vector<double> angles_deg;
+  for (std::size_t i = 0; i < train.points.size(); ++i) {
+    const auto is_lift = [&](std::size_t row) {
+      return row < train.points.size() && train.points[row].lift_m > kBase_m;
+    };
+    if (is_lift(i - 1) || is_lift(i) || is_lift(i + 1)) angles_deg.push_back(train.points[i].cam_deg);
+  }
+  return angles_deg;
+}
+
+void look_at_rows_left_out(const SectionValues& cam, const TrainOfFile& train, Warnings& warnings) {
+  constexpr double kLeastDeg = 10;
+  if (const std::optional<Gap> gap = widest_gap(angles_of_lobe(train), kLeastDeg))
+    warnings.add(cam.line_of("file"), train.points_path + ": " + in_words(*gap) + ": a smooth lobe goes across");
+}
+
+/// The largest lift, in the range of an analytic cam's.
+void look_at_largest_lift(const SectionValues& cam, const TrainOfFile& train, const EngineSize& size,
+                          Warnings& warnings) {
+  const UsualRange& range = *usual_range_of(*find_key("cam", "max_lift_mm"));
+  const std::optional<double> per = size.of(range.per);
+  const auto lower = [](const CamPoint& a, const CamPoint& b) { return a.lift_m < b.lift_m; };
+  const double lift_mm = 1e3 * std::max_element(train.points.begin(), train.points.end(), lower)->lift_m;
+  if (!per || within(range.usual, lift_mm / *per)) return;
+  warnings.add(cam.line_of("file"), train.points_path + ": lift_mm up to " + brief(lift_mm) + " is unusual; usual: " +
+                                        about(range.usual.least * *per) + " to " + about(range.usual.most * *per) +
+                                        " mm" + in_words(range.per) + ": is it in mm?");
+}
+
+void look_at_measured_cams(const EngineFile& engine, const EngineSize& size, Warnings& warnings) {
   for (const TrainOfFile& train : engine.trains()) {
     if (!train.has_cam || train.definition.cam.source != CamSource::table) continue;
     const SectionValues& cam = engine.section("cam " + train.name);
+    look_at_largest_lift(cam, train, size, warnings);
+    look_at_rows_left_out(cam, train, warnings);
     look_at_misread_rows(cam, train, warnings);
     look_at_feet(cam, train, warnings);
   }
@@ -269,6 +293,26 @@ void look_at_piston(const EngineFile& engine, Warnings& warnings) {
                       " for this bore; `crankloop masses` has a first guess");
 }
 
+/// A trace over the crank angle, of a cycle: what is between its last row and the first of the next one counts too.
+void look_at_trace(const Pressure& pressure, int line, Warnings& warnings) {
+  constexpr double kLeastDeg = 15;
+  constexpr double kCycleDeg = 720;
+  constexpr double kSamePressure = 0.02;
+  if (pressure.source != PressureSource::angle_table) return;
+  std::vector<double> angles_deg;
+  for (int i = 0; i < pressure.point_count; ++i) angles_deg.push_back(pressure.points[i].at);
+  const DiagramPoint &first = pressure.points[0], &last = pressure.points[pressure.point_count - 1];
+  if (last.at - first.at < kCycleDeg - 1e-9) {
+    angles_deg.push_back(first.at + kCycleDeg);
+  } else if (std::abs(last.pressure_Pa - first.pressure_Pa) > kSamePressure * first.pressure_Pa) {
+    warnings.add(line, "the row at " + brief(last.at) + " deg, " + brief(last.pressure_Pa / 1e3) +
+                           " kPa, is the same place as that at " + brief(first.at) + " deg, " +
+                           brief(first.pressure_Pa / 1e3) + " kPa, and is left out");
+  }
+  if (const std::optional<Gap> gap = widest_gap(angles_deg, kLeastDeg))
+    warnings.add(line, in_words(*gap) + ": a smooth curve goes across, and work and torque are of that");
+}
+
 void look_at_diagram(const EngineFile& engine, Warnings& warnings) {
   const EngineDefinition& d = engine.definition();
   const auto diagram = std::make_unique<IndicatorDiagram>();  // large
@@ -278,6 +322,7 @@ void look_at_diagram(const EngineFile& engine, Warnings& warnings) {
   const SectionValues& pressure = engine.section("pressure");
   const bool is_table = pressure.has("file");
   const int line = pressure.line_of(is_table ? "file" : "compression_exponent");
+  look_at_trace(d.pressure, line, warnings);
   if (is_table)
     warnings.add_unless(kBottomKPa, diagram->full_Pa(kBottomDeg) / 1e3, line, "pressure where the compression begins",
                         " kPa", ": is it in kPa, and absolute?");
@@ -317,7 +362,7 @@ std::vector<std::string> warnings_about(const EngineFile& engine) {
   }
   look_at_values(engine, size, metres, warnings);
   look_at_cams(engine, warnings);
-  look_at_measured_cams(engine, warnings);
+  look_at_measured_cams(engine, size, warnings);
   look_at_mixture(engine, size, warnings);
   look_at_runners(engine, warnings);
   look_at_burn(engine, warnings);

@@ -144,6 +144,14 @@ std::string value_at(const KeyPlace& place, const EngineFile& file) {
   return place.entry <= value->numbers.size() ? shortest(value->numbers[place.entry - 1]) : "";
 }
 
+bool undoes(const KeyPlace& a, const KeyPlace& b) noexcept {
+  const auto sets_rod = [](const KeyPlace& place) {
+    return is_rod_ratio(place) || (place.kind == "crank" && std::string_view(place.key->name) == "rod_length_mm");
+  };
+  if (sets_rod(a) && sets_rod(b)) return true;
+  return a.kind == b.kind && a.name == b.name && a.key == b.key && (a.entry == b.entry || a.entry == 0 || b.entry == 0);
+}
+
 bool uses(const EngineFile& file, const KeyPlace& place) {
   return file.has(place.title()) && file.section(place.title()).has(place.key->name);
 }

@@ -39,6 +39,9 @@ struct Setting {
 /// The key's value as text, also a default; empty where it has none. Of crank.rod_ratio that of the rod's length.
 [[nodiscard]] std::string value_at(const KeyPlace& place, const EngineFile& file);
 
+/// Whether one value undoes the other: two of one key, a list and an entry of it, the rod's length and its ratio.
+[[nodiscard]] bool undoes(const KeyPlace& a, const KeyPlace& b) noexcept;
+
 /// Whether the file uses the key: not where another source or form excludes it.
 [[nodiscard]] bool uses(const EngineFile& file, const KeyPlace& place);
 

@@ -37,6 +37,9 @@ struct ParsedNumber {
 /// 6 significant digits: for messages with a computed number.
 [[nodiscard]] std::string brief(double value);
 
+/// Two significant digits: of what is approximate.
+[[nodiscard]] std::string about(double value);
+
 /// 12 significant digits for double and 9 for float, as in CSV files.
 [[nodiscard]] std::string significant(double value);
 [[nodiscard]] std::string significant(float value);

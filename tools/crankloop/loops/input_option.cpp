@@ -1,14 +1,37 @@
 #include "input_option.hpp"
 
+#include <utility>
+
 #include "../files/error.hpp"
 #include "../files/number.hpp"
 
 namespace crankloop::program {
 
+namespace {
+
+/// An option that a column of the file would override from the first tick on.
+constexpr std::pair<const char*, const char*> kSameInput[] = {
+    {"--load-ratio", "load_ratio"},
+    {"--throttle", "throttle_ratio"},
+    {"--lambda", "excess_air_ratio"},
+    {"--burn-start-deg", "burn_start_deg"},
+    {"--cut", "cut_cylinders"},
+    {"--starter", "starter"},
+    {"--external-torque-Nm", "external_torque_Nm"},
+    {"--fault-bits", "wheel_faults"},
+};
+
+}  // namespace
+
 std::optional<InputSchedule> read_inputs(const Arguments& arguments, const EngineFile& engine,
                                          const std::vector<SceneInput>& inputs) {
   if (!arguments.has(kInputs.name)) return std::nullopt;
   InputSchedule schedule(arguments.text(kInputs.name), inputs);
+  for (const auto& [option, column] : kSameInput) {
+    if (arguments.has(option) && schedule.drives_any(column))
+      throw UsageError(std::string(option) + " and the column " + column + " of " + schedule.path() +
+                       " give the same input; leave out one of them");
+  }
   const EngineDefinition& definition = engine.definition();
   if (schedule.largest("starter") != 0 && definition.starter.stall_Nm == 0) {
     throw InputError(schedule.path() + ": column starter: " + engine.path() +

@@ -57,7 +57,8 @@ CamOfTrain cam_for(const std::string& wanted, const TrainOfFile& train, const Wa
     throw InputError(wanted + ": the table of its cam is refused" + where + ": " + refused.field + " " +
                      describe(refused.reason) + "; try another --step-deg");
   };
-  accept(choose_smoothing(result.cam), "");
+  CamRows rows;
+  accept(choose_smoothing(result.cam, rows), "");
   const Status of_lift = result.lift->init(result.cam, result.rocker());
   accept(of_lift, " at " + brief(result.lift->failed_at_deg()) + " deg of the flat follower's angle");
   return result;
@@ -160,6 +161,11 @@ int run_cam(const Arguments& arguments) {
   const WantedOptions options{step_deg, arguments.has("--zero-lash")};
   const CamOfTrain cam =
       arguments.has("--wanted") ? cam_for(arguments.text("--wanted"), train, options) : cam_of_file(file, train);
+  if (cam.wanted && !cam.wanted->misread.empty()) {
+    (void)tell_warnings(arguments,
+                        {arguments.text("--wanted") + ": warning: the smoothing of the wanted lift becomes " +
+                         brief(cam.wanted->smoothing_m * kMicro) + " um because of " + cam.wanted->misread});
+  }
   if (arguments.has("--smoothing") && !cam.is_table())
     throw UsageError("--smoothing: the cam of train " + train.name + " is no table, so nothing is smoothed");
   if (arguments.has("--table") && !cam.wanted && 360 / step_deg > kMaxCamPoints)

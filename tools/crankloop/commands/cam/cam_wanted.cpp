@@ -8,6 +8,7 @@
 #include <crankloop/tabulate/cam_profile.hpp>
 
 #include "../../engine_file/lobe_feet.hpp"
+#include "../../engine_file/measured_rows.hpp"
 #include "../../files/error.hpp"
 #include "../../files/number.hpp"
 #include "../../files/table_file.hpp"
@@ -80,9 +81,11 @@ void require_base_circle(const Wanted& wanted, double clearance_m) {
   }
 }
 
-InputError explain_rows(const Wanted& wanted, const Status& refused) {
+InputError explain_rows(const Wanted& wanted, const Status& refused, double scatter_m) {
   const bool has_row = refused.index >= 0 && static_cast<std::size_t>(refused.index) < wanted.lines.size();
-  const int line = has_row ? wanted.lines[static_cast<std::size_t>(refused.index)] : wanted.lines.back();
+  int line = has_row ? wanted.lines[static_cast<std::size_t>(refused.index)] : wanted.lines.back();
+  if (const std::optional<OddRow> odd = odd_row(wanted.rows, scatter_m); odd && refused.reason == Reason::no_solution)
+    line = wanted.lines[odd->row];
   switch (refused.reason) {
     case Reason::too_few_points:
       return InputError(wanted.path, line, std::to_string(wanted.rows.size()) + " rows are too few for a lift");
@@ -108,8 +111,10 @@ class Inverse {
     lift.source = CamSource::table;
     lift.points = raised.data();
     lift.point_count = static_cast<int>(raised.size());
-    if (const Status refused = choose_smoothing(lift); !refused.ok()) throw explain_rows(wanted, refused);
-    if (const Status refused = profile_->init(lift); !refused.ok()) throw explain_rows(wanted, refused);
+    CamRows rows;
+    if (const Status refused = choose_smoothing(lift, rows); !refused.ok())
+      throw explain_rows(wanted, refused, rows.scatter_m);
+    if (const Status refused = profile_->init(lift); !refused.ok()) throw explain_rows(wanted, refused, rows.scatter_m);
     const LobeFeet feet = lobe_feet(raised, lift.smoothing_m);
     if (feet.step_m_deg > kLargestFirstSpeed * feet.largest_m_deg) {
       throw InputError(wanted.path, wanted.lines[feet.first_row],
@@ -118,6 +123,7 @@ class Inverse {
                            " % of the largest, and returns with one: give it with its ramps");
     }
     result.smoothing_m = lift.smoothing_m;
+    result.misread = misread_row({wanted.path, wanted.rows, wanted.lines}, rows);
     result.residual_m = profile_->residual_m();
     result.peak_deg = profile_->peak_deg();
     cam_ = CamFromLift(rocker, profile_->largest_lift_m() - clearance_m_);
@@ -213,8 +219,7 @@ WantedCam cam_for_lift(const std::string& path, const Rocker& rocker, const Want
   return result;
 }
 
-Status choose_smoothing(Cam& table) noexcept {
-  CamRows rows;
+Status choose_smoothing(Cam& table, CamRows& rows) noexcept {
   if (const Status refused = survey_rows(table, rows); !refused.ok()) return refused;
   table.smoothing_m = millionths(parse_number(brief(rows.automatic_m * 1e6)).value);
   return {};

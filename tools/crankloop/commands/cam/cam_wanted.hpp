@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <crankloop/define/valve_train.hpp>
+#include <crankloop/tabulate/cam_profile.hpp>
 #include <crankloop/tabulate/valve_lift.hpp>
 
 namespace crankloop::program {
@@ -19,6 +20,7 @@ struct WantedCam {
   double smoothing_m = 0;          ///< of the wanted lift's rows, chosen by their scatter
   double residual_m = 0;           ///< largest distance of a row from the smooth wanted lift
   double peak_deg = 0;             ///< cam angle of the wanted lift's peak in its file, here 0
+  std::string misread{};           ///< the row that makes the smoothing large; "" where none does
 };
 
 struct WantedOptions {
@@ -31,7 +33,7 @@ struct WantedOptions {
 [[nodiscard]] WantedCam cam_for_lift(const std::string& path, const Rocker& rocker, const WantedOptions& options);
 
 /// Chooses smoothing_m by the scatter of the rows, as an engine file with `smoothing_um = auto` does.
-Status choose_smoothing(Cam& table) noexcept;
+Status choose_smoothing(Cam& table, CamRows& rows) noexcept;
 
 /// The largest distance of a wanted row from the lift that the designed cam gives, read from its table again.
 [[nodiscard]] double deviation_m(const WantedCam& wanted, const ValveLift& lift) noexcept;

@@ -164,7 +164,8 @@ std::string table_of(const Redline& redline) {
   Summary s;
   s.remark("influence of " + redline.varied->keys + (redline.varied->are_factors ? ", times factor" : "") +
            "; from max_lift_mm on at " + std::to_string(redline.as_given().at[redline.compared_at()].speed_rpm) +
-           " rpm, just above the onset as given");
+           " rpm, " +
+           (redline.as_given().separation.found ? "just above the onset as given" : "the highest speed of the sweep"));
   return s.text() + table_of_factors(redline);
 }
 

@@ -91,17 +91,30 @@ std::string command_line(const Arguments& arguments) {
   return text;
 }
 
+/// Whether one quantity's value undoes the other's.
+bool undoes(const Target& a, const Target& b) {
+  return a.name() == b.name() || (a.key && b.key && program::undoes(*a.key, *b.key));
+}
+
 void add_axes(Study& study, const Arguments& arguments, const std::vector<const Option*>& options) {
   for (const std::string& text : arguments.words("--vary")) {
     study.axes.push_back(parse_variation(text, study.file, options));
+    const Target& varied = study.axes.back().target;
     for (std::size_t a = 0; a + 1 < study.axes.size(); ++a) {
-      if (study.axes[a].target.name() == study.axes.back().target.name())
-        throw UsageError("--vary: " + study.axes[a].target.name() + " is varied twice");
+      const Target& other = study.axes[a].target;
+      if (other.name() == varied.name()) throw UsageError("--vary: " + varied.name() + " is varied twice");
+      if (undoes(other, varied))
+        throw UsageError("--vary: " + other.name() + " and " + varied.name() + " are one quantity; vary one of them");
+    }
+    for (const Constant& constant : study.options) {
+      if (constant.target.name() == varied.name())
+        throw UsageError("--set: " + varied.name() + " is varied; give it once");
     }
     // A key may be in both: --set then makes the file of the engine whole.
-    const std::string varied = study.axes.back().target.name();
-    for (const Constant& constant : study.options) {
-      if (constant.target.name() == varied) throw UsageError("--set: " + varied + " is varied; give it once");
+    for (const Setting& setting : study.settings) {
+      if (varied.key && setting.place.key != varied.key->key && undoes({setting.place}, varied))
+        throw UsageError("--set: " + setting.place.text() + " and the varied " + varied.name() +
+                         " are one quantity; give one of them");
     }
   }
   if (study.axes.size() > 2) throw UsageError("--vary: at most two quantities are varied at once");
@@ -204,8 +217,14 @@ std::string summary(const Study& study) {
 
 /// What --set asks for.
 void add_constants(Study& study, const Arguments& arguments, const std::vector<const Option*>& options) {
+  std::vector<Target> set;
   for (const std::string& one : arguments.words("--set")) {
     const Constant constant = parse_constant(one, study.file, options);
+    for (const Target& other : set) {
+      if (undoes(other, constant.target))
+        throw UsageError("--set: " + other.name() + " and " + constant.target.name() + " are one quantity; give one");
+    }
+    set.push_back(constant.target);
     if (constant.target.key) {
       study.settings.push_back({*constant.target.key, constant.value});
     } else {
