@@ -197,9 +197,9 @@ TEST_F(BadCommandLine, HelpIsNoMistake) {
 /// Output that cannot be written is a failure of the machine, not of the input, and leaves no half file behind.
 class Output : public BadInput {
  protected:
-  /// A run that is long in writing r.csv, once it has begun to.
-  pid_t start_long_run() const {
-    const pid_t child = start({"run", kSample, "--cycles", "1000000", "--csv", folder_ / "r.csv"}, folder_ / "stdout");
+  /// A run that is long in writing its file, once it has begun to.
+  pid_t start_long_run(const std::string& name = "r.csv") const {
+    const pid_t child = start({"run", kSample, "--cycles", "1000000", "--csv", folder_ / name}, folder_ / "stdout");
     const auto deadline = std::chrono::steady_clock::now() + kPatience;
     while (unfinished().empty() && std::chrono::steady_clock::now() < deadline)
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
@@ -332,6 +332,26 @@ TEST_F(Output, LeftByAKilledRunIsTakenAwayByTheNextAndThatOfARunningOneIsNot) {
   EXPECT_EQ(unfinished().size(), 1u);
   kill(running, SIGTERM);
   EXPECT_EQ(status_of(running), -SIGTERM);
+}
+
+TEST_F(Output, HasANameOfAnyLengthThatAFileMayHave) {
+  constexpr std::size_t kLongest = 255;
+  std::string euros;  // of three bytes each
+  while (euros.size() < kLongest) euros += "\u20AC";
+  for (const std::string& name : {std::string(240, 'a'), std::string(kLongest, 'a'), euros}) {
+    const pid_t killed = start_long_run(name);
+    kill(killed, SIGKILL);
+    EXPECT_EQ(status_of(killed), -SIGKILL);
+    ASSERT_EQ(unfinished().size(), 1u);
+    const std::size_t kept = unfinished().front().find(".unfinished-");
+    EXPECT_EQ(unfinished().front().substr(0, kept), name.substr(0, kept));
+    if (name == euros) {
+      EXPECT_EQ(kept % 3, 0u) << "a character is cut";
+    }
+    EXPECT_EQ(run({"kinematics", kSample, "--rpm", "2000", "--csv", folder_ / name}).status, 0);
+    EXPECT_EQ(unfinished(), std::vector<std::string>{});
+    EXPECT_EQ(contents(folder_ / name), run({"kinematics", kSample, "--rpm", "2000"}).out);
+  }
 }
 
 TEST_F(Output, ThatCannotBeWrittenIsAFailure) {

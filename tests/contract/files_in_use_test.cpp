@@ -196,6 +196,31 @@ TEST_F(FilesInUse, AreNoPlaceForStandardOutputEither) {
   EXPECT_NE(contents(in("err")).find("out: standard output goes there too"), std::string::npos) << contents(in("err"));
 }
 
+TEST_F(FilesInUse, MayBeAPipeOfOneOutputAloneOrTheDeviceThatKeepsNothing) {
+  const auto through_cat = [&](const std::string& outputs) {
+    const std::string command = std::string("'") + CRANKLOOP_PROGRAM + "' run '" + in("diesel_495.ini") +
+                                "' --rpm 2000 --cycles 1 --no-warnings " + outputs + " 2>'" + in("err") + "' | cat >'" +
+                                in("out") + "'";
+    EXPECT_EQ(std::system(command.c_str()), 0);
+  };
+  through_cat("--csv '" + in("table.csv") + "'");
+  const std::string table = contents(in("table.csv"));
+  ASSERT_NE(contents(in("out")).find("\nfaulty_ticks = "), std::string::npos);
+  through_cat("--csv /dev/stdout");
+  EXPECT_EQ(contents(in("out")), table) << "and the summary elsewhere, as with --csv -";
+  EXPECT_NE(contents(in("err")).find("\nfaulty_ticks = "), std::string::npos) << contents(in("err"));
+  for (const char* outputs : {"--csv /dev/stdout --report /dev/stdout", "--csv - --report /dev/stdout",
+                              "--csv /dev/fd/3 --report /dev/fd/4 3>&1 4>&1 >/dev/null"}) {
+    through_cat(outputs);
+    EXPECT_NE(contents(in("err")).find(": named for two outputs, "), std::string::npos) << outputs;
+    EXPECT_EQ(contents(in("out")), "") << outputs;
+  }
+  const Answer nothing_kept =
+      run({"run", in("diesel_495.ini"), "--no-warnings", "--csv", "/dev/null", "--report", "/dev/null"}, "/dev/null");
+  EXPECT_EQ(nothing_kept.status, 0);
+  EXPECT_EQ(nothing_kept.error, "");
+}
+
 TEST_F(FilesInUse, OfAPackedFolderAreNotThePackage) {
   EXPECT_EQ(run({"pack", in("my_engine_fmu"), "-o", in("my_engine_fmu/new.fmu")}).status, 0);
   const std::string packed = contents(in("my_engine_fmu/new.fmu"));

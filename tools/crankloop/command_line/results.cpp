@@ -7,8 +7,8 @@ namespace crankloop::program {
 Results::Results(const Arguments& arguments, std::initializer_list<const char*> options) {
   for (const char* option : options) {
     if (!arguments.has(option)) continue;
-    files_.emplace(option, Output(arguments.text(option)));
-    output_taken_ = output_taken_ || arguments.text(option) == "-";
+    const Output& file = files_.emplace(option, Output(arguments.text(option))).first->second;
+    output_taken_ = output_taken_ || file.is_standard();
   }
 }
 
@@ -19,7 +19,11 @@ Output* Results::operator[](const std::string& option) {
 
 void Results::finish(const std::string& summary) {
   for (auto& [option, file] : files_) file.finish();
-  if (output_taken_) {
+  print_summary(summary, output_taken_);
+}
+
+void print_summary(const std::string& summary, bool output_taken) {
+  if (output_taken) {
     std::fputs(summary.c_str(), stderr);
   } else {
     print(summary);

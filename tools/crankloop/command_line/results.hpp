@@ -33,4 +33,7 @@ class Results {
   bool output_taken_ = false;
 };
 
+/// On standard output, or on stderr where a file has taken that.
+void print_summary(const std::string& summary, bool output_taken);
+
 }  // namespace crankloop::program

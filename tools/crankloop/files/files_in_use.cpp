@@ -1,6 +1,7 @@
 #include "files_in_use.hpp"
 
 #include <sys/stat.h>
+#include <sys/sysmacros.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -15,10 +16,10 @@
 namespace crankloop::program {
 namespace {
 
-/// Identity of a regular file, independent of its names.
+/// Identity of a file, pipe or device, independent of its names.
 struct FileIdentity {
   dev_t device;
-  ino_t number;
+  ino_t number;  ///< 0: the device itself
 
   friend bool operator==(const FileIdentity& a, const FileIdentity& b) {
     return a.device == b.device && a.number == b.number;
@@ -39,9 +40,21 @@ MaybeFile open_file(int descriptor) {
   return ::fstat(descriptor, &found) == 0 ? identity_of(found) : std::nullopt;
 }
 
+/// Identity of a pipe, socket or device; none of /dev/null and its like, where nothing can be mixed.
+MaybeFile stream_of(const struct stat& found) {
+  constexpr unsigned kMemoryDevices = 1;
+  if (S_ISFIFO(found.st_mode) || S_ISSOCK(found.st_mode)) return {{found.st_dev, found.st_ino}};
+  const bool device = S_ISBLK(found.st_mode) || (S_ISCHR(found.st_mode) && major(found.st_rdev) != kMemoryDevices);
+  return device ? MaybeFile{{found.st_rdev, 0}} : std::nullopt;
+}
+MaybeFile stream_at(const std::string& path) {
+  struct stat found {};
+  return ::stat(path.c_str(), &found) == 0 ? stream_of(found) : std::nullopt;
+}
+
 /// Absolute path of a file that does not exist yet.
 std::string place_of(const std::string& path) {
-  if (path == "-") return path;
+  if (is_standard_output(path)) return "-";
   std::error_code error;
   const std::filesystem::path whole = std::filesystem::absolute(path, error);
   const std::filesystem::path folder = std::filesystem::weakly_canonical(whole.parent_path(), error);
@@ -97,12 +110,21 @@ void demand_unread(const std::string& path) {
   }
 }
 
+bool is_standard_output(const std::string& path) {
+  if (path == "-") return true;
+  struct stat standard {};
+  const MaybeFile stream = stream_at(path);
+  return stream && ::fstat(STDOUT_FILENO, &standard) == 0 && stream == stream_of(standard);
+}
+
 void claim_output(const std::string& path) {
   if (!watching) return;
-  Used output{path, place_of(path), path == "-" ? std::nullopt : file_at(path)};
-  if (path != "-") {
+  Used output{path, place_of(path), std::nullopt};
+  if (output.place != "-") {
+    output.file = file_at(path);
+    if (!output.file) output.file = stream_at(path);
     std::error_code error;                                             // a loop of links is not a device either
-    if (!output.file && std::filesystem::exists(path, error)) return;  // a device or a pipe
+    if (!output.file && std::filesystem::exists(path, error)) return;  // /dev/null
     demand_unread(path);
     if (const char* stream = stream_into(output.file))
       throw InputError(path + ": " + stream + " goes there too; write to another file");

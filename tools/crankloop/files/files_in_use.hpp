@@ -15,9 +15,12 @@ namespace crankloop::program {
 /// `>> FILE` would append to it.
 void watch_files_in_use();
 
-/// Before an output is opened. `path` is that of a file, made or to be made, or "-" for standard output. Throws
-/// InputError where the command has read the file, where another output has claimed it, or where standard output or
-/// stderr goes there. Anything but a regular file, such as /dev/null, may always be claimed.
+/// Whether `path` is "-", or another name of the pipe, socket or terminal that standard output is, such as /dev/stdout.
+[[nodiscard]] bool is_standard_output(const std::string& path);
+
+/// Before an output is opened. `path` is that of a file, made or to be made, or of standard output. Throws InputError
+/// where the command has read the file, where another output has claimed it, or where standard output or stderr goes
+/// there. A pipe or device is claimed by one output alone too; /dev/null may always be claimed.
 void claim_output(const std::string& path);
 
 /// Checks again before the output appears at `path`, against files read after claim_output(). Throws InputError.

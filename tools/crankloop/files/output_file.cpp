@@ -99,6 +99,19 @@ extern "C" void remove_unfinished_and_end(int signal_number) {
 
 // ---- files left by killed runs --------------------------------------------------------------------------------------
 
+/// What the temporary names of a file begin with: its own name, as much of it as leaves room for the rest.
+std::string unfinished_start(const std::filesystem::path& path) {
+  constexpr std::size_t kNumbers = sizeof "4294967295-99" - 1;
+  constexpr std::size_t kRoom = NAME_MAX - kUnfinished.size() - kNumbers;
+  std::string name = path.filename().string();
+  if (name.size() > kRoom) {
+    std::size_t end = kRoom;
+    while (end > 0 && (name[end] & 0xC0) == 0x80) --end;  // not within a character of UTF-8
+    name.resize(end);
+  }
+  return name + std::string(kUnfinished);
+}
+
 /// Whether `name` is `start` and two numbers with a dash between, as create_unfinished() makes it.
 bool is_unfinished(std::string_view name, std::string_view start) {
   if (name.substr(0, start.size()) != start) return false;
@@ -122,7 +135,7 @@ void remove_if_left_over(const std::string& path) {
 
 void remove_left_overs(const std::string& path) {
   const std::filesystem::path whole(path);
-  const std::string start = whole.filename().string() + std::string(kUnfinished);
+  const std::string start = unfinished_start(whole);
   const std::filesystem::path folder = whole.has_parent_path() ? whole.parent_path() : std::filesystem::path(".");
   std::error_code error;  // a folder that cannot be listed may still be writable
   for (std::filesystem::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
@@ -149,8 +162,9 @@ void Output::remove_unfinished_at_signals() {
 }
 
 Output::Output(const std::string& path) {
-  if (path == "-") claim_output(path);
-  if (path.empty() || path == "-") {
+  const bool standard = is_standard_output(path);
+  if (standard) claim_output(path);
+  if (path.empty() || standard) {
     file_ = STDOUT_FILENO;
     return;
   }
@@ -171,10 +185,11 @@ Output::Output(const std::string& path) {
 }
 
 void Output::create_unfinished() {
+  const std::string start = std::filesystem::path(path_).replace_filename(unfinished_start(path_)).string();
   // More than one attempt only if several outputs go to one path, or the name is taken.
   for (int attempt = 0; attempt < kMaxNames; ++attempt) {
     const SignalsHeld held;
-    temporary_ = path_ + std::string(kUnfinished) + std::to_string(::getpid()) + "-" + std::to_string(attempt);
+    temporary_ = start + std::to_string(::getpid()) + "-" + std::to_string(attempt);
     file_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     if (file_ >= 0 && claim(file_)) return arm(temporary_);
     temporary_.clear();
@@ -199,8 +214,10 @@ Output::Output(Output&& other) noexcept
 
 Output::~Output() {
   discard_unfinished();
-  if (file_ >= 0 && file_ != STDOUT_FILENO) ::close(file_);
+  if (file_ >= 0 && !is_standard()) ::close(file_);
 }
+
+bool Output::is_standard() const noexcept { return file_ == STDOUT_FILENO; }
 
 void Output::write(std::string_view text) {
   buffer_ += text;
@@ -225,7 +242,7 @@ void Output::finish() {
   flush();
   const int locked =
       temporary_.empty() ? -1 : ::fcntl(file_, F_DUPFD_CLOEXEC, 0);  // the lock lasts until the file has its name
-  const bool closed = file_ == STDOUT_FILENO || ::close(std::exchange(file_, -1)) == 0;
+  const bool closed = is_standard() || ::close(std::exchange(file_, -1)) == 0;
   const bool named = closed && (temporary_.empty() || std::rename(temporary_.c_str(), path_.c_str()) == 0);
   if (!named) fail(closed ? "cannot be created" : "cannot be written");
   disarm(temporary_);

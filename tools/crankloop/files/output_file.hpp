@@ -14,13 +14,13 @@ namespace crankloop::program {
 ///
 /// A file that the command reads, or that is another of its outputs, is refused by InputError (files_in_use.hpp).
 ///
-/// The temporary name is the path with .unfinished-PID-N appended; its file is locked (flock) while its writer runs.
-/// The next writer to the same path removes a file that a killed writer left.
+/// The temporary name is the path, a long name cut, with .unfinished-PID-N appended; its file is locked (flock) while
+/// its writer runs. The next writer to the same path removes a file that a killed writer left.
 ///
 /// Every other failure throws OutputError; unfinished output is discarded.
 class Output {
  public:
-  /// "" and "-" are standard output.
+  /// "" and "-" are standard output, and so is another name of its pipe or terminal.
   explicit Output(const std::string& path);
   static Output standard() { return Output(""); }
 
@@ -33,6 +33,8 @@ class Output {
   Output(Output&& other) noexcept;
   Output& operator=(Output&&) = delete;
   ~Output();
+
+  [[nodiscard]] bool is_standard() const noexcept;
 
   void write(std::string_view text);
   void finish();  ///< nothing may be written after it
