@@ -116,6 +116,27 @@ TEST_F(Live, TellsTimesAndDeadlinesOfEveryTick) {
   EXPECT_EQ(sums, std::vector<double>(3, 1000.0));
 }
 
+TEST_F(Live, KeepsEachOfItsRecordingsWhateverBecomesOfTheRest) {
+  const std::string trace = in_folder("t.vcd"), histogram = in_folder("h.csv");
+  const std::vector<std::string> same{"--seconds", "0.2", "--from-rpm", "900", "--trace", trace, "--histogram"};
+  const auto with_histogram = [&](const std::string& path) {
+    std::vector<std::string> options = same;
+    options.push_back(path);
+    return live(options);
+  };
+  Process untold(with_histogram(histogram), "/dev/full");  // its summary finds no room
+  EXPECT_EQ(untold.wait(), 1);
+  EXPECT_NE(contents(trace).find("$enddefinitions"), std::string::npos);
+  EXPECT_NE(contents(histogram).find("from_us,below_us"), std::string::npos);
+
+  std::filesystem::remove(trace);
+  Process lost(with_histogram("/dev/full"), in_folder("live.txt"));
+  EXPECT_EQ(lost.wait(), 1);
+  EXPECT_NE(contents(trace).find("$enddefinitions"), std::string::npos);
+  EXPECT_EQ(values_of(lost.output()).at("ticks"), "200") << lost.output();
+  EXPECT_NE(lost.output().find("crankloop: /dev/full cannot be written: "), std::string::npos) << lost.output();
+}
+
 TEST_F(Live, TurnsOnWithoutFuelWhenItsControllerFallsSilent) {
   Process engine(live({"--seconds", "600", "--from-rpm", "1000", "--shared", block_path(), "--silent-ms", "50"}),
                  in_folder("live.txt"));

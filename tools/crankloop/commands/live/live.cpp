@@ -1,6 +1,9 @@
 // `crankloop live FILE`: the engine against the machine's clock, its crank free, a controller in the loop.
 #include <algorithm>
 #include <cmath>
+#include <exception>
+#include <functional>
+#include <initializer_list>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -10,6 +13,7 @@
 #include "../../command_line/engine_argument.hpp"
 #include "../../command_line/gas_options.hpp"
 #include "../../command_line/operating_point.hpp"
+#include "../../command_line/results.hpp"
 #include "../../command_line/with_real.hpp"
 #include "../../engine_file/plausibility.hpp"
 #include "../../files/error.hpp"
@@ -76,6 +80,19 @@ void warn_of_running_alone(const Arguments& arguments, const EngineFile& file, c
   tell_warnings(arguments, warnings_about_running_free(file, file.definition()));
 }
 
+/// Takes every step, whatever becomes of the others; then throws the first failure.
+void take_all(std::initializer_list<std::function<void()>> steps) {
+  std::exception_ptr failure;
+  for (const std::function<void()>& step : steps) {
+    try {
+      step();
+    } catch (...) {
+      if (!failure) failure = std::current_exception();
+    }
+  }
+  if (failure) std::rethrow_exception(failure);
+}
+
 int run_live_command(const Arguments& arguments) {
   EngineFile file = read_engine_for_scenes(arguments, {"engine", "crank", "masses"});
   file.set_misfires(arguments.words("--misfire"));
@@ -107,16 +124,23 @@ int run_live_command(const Arguments& arguments) {
     throw InputError(refused.what());
   }
 
-  print(live_summary(file, request, real, {shares, trace ? &*trace : nullptr, schedule ? &*schedule : nullptr},
-                     *figures));
-  if (histogram) {
-    write_live_histogram(*histogram, *figures);
-    histogram->finish();
-  }
-  if (trace) {
+  const auto finish_trace = [&] {
+    if (!trace) return;
     trace->finish();
     trace_file->finish();
-  }
+  };
+  const auto finish_histogram = [&] {
+    if (!histogram) return;
+    write_live_histogram(*histogram, *figures);
+    histogram->finish();
+  };
+  const bool output_taken = (trace_file && trace_file->is_standard()) || (histogram && histogram->is_standard());
+  const auto tell = [&] {
+    print_summary(live_summary(file, request, real,
+                               {shares, trace ? &*trace : nullptr, schedule ? &*schedule : nullptr}, *figures),
+                  output_taken);
+  };
+  take_all({finish_trace, finish_histogram, tell});
   if (!figures->lost_block) return kSuccess;
   throw std::runtime_error(arguments.text("--shared") + ": was truncated or overwritten after " +
                            std::to_string(figures->tally.ticks) + " ticks");
