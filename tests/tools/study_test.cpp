@@ -1,9 +1,11 @@
 // `crankloop study`: its points against commands run on files that have the values, its parts against the whole, its
 // drawings, its refusals.
 #include <gtest/gtest.h>
+#include <pthread.h>
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <fstream>
 #include <functional>
 #include <sstream>
@@ -416,6 +418,38 @@ TEST(RunInParallel, DoesEachOnceAndThrowsTheFirstRefusal) {
       EXPECT_EQ(told, "3");
     }
   }
+}
+
+/// While one lives, a new thread needs a stack that no machine has room for.
+class NoRoomForThreads {
+ public:
+  NoRoomForThreads() {
+    EXPECT_EQ(pthread_getattr_default_np(&before_), 0);
+    pthread_attr_t huge;
+    pthread_attr_init(&huge);
+    EXPECT_EQ(pthread_attr_setstacksize(&huge, std::size_t{1} << 60), 0);
+    EXPECT_EQ(pthread_setattr_default_np(&huge), 0);
+    pthread_attr_destroy(&huge);
+  }
+  NoRoomForThreads(const NoRoomForThreads&) = delete;
+  NoRoomForThreads& operator=(const NoRoomForThreads&) = delete;
+  ~NoRoomForThreads() {
+    pthread_setattr_default_np(&before_);
+    pthread_attr_destroy(&before_);
+  }
+
+ private:
+  pthread_attr_t before_{};
+};
+
+TEST(RunInParallel, DoesAllWithTheThreadsThereAre) {
+  const NoRoomForThreads none;
+  std::vector<int> done(100, 0);
+  int after = 0;
+  run_in_parallel(
+      64, done.size(), [&](std::size_t i) { ++done[i]; }, [&] { ++after; });
+  EXPECT_EQ(done, std::vector<int>(100, 1));
+  EXPECT_EQ(after, 100);
 }
 
 TEST(ExactText, GivesEveryNumberBack) {

@@ -10,6 +10,18 @@
 #include <vector>
 
 namespace crankloop::program {
+namespace {
+
+/// So many threads, the calling one included, or as many as the system allows.
+void start(std::vector<std::thread>& others, std::size_t threads, const std::function<void()>& work) {
+  others.reserve(threads);
+  try {
+    while (others.size() + 1 < threads) others.emplace_back(work);
+  } catch (const std::exception&) {  // no room for another: those that run do all the work
+  }
+}
+
+}  // namespace
 
 int processors() {
   cpu_set_t set;
@@ -39,7 +51,7 @@ void run_in_parallel(int threads, std::size_t count, const std::function<void(st
     }
   };
   std::vector<std::thread> others;
-  for (std::size_t i = 1; i < std::min(static_cast<std::size_t>(threads), count); ++i) others.emplace_back(take_turns);
+  start(others, std::min(static_cast<std::size_t>(threads), count), take_turns);
   take_turns();
   for (std::thread& other : others) other.join();
   if (refused) std::rethrow_exception(refused);
