@@ -17,6 +17,7 @@
 #include <random>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "support/live_bench.hpp"
@@ -287,6 +288,58 @@ TEST_F(LiveRing, IsRefusedByPlayersAndReadersThatCannotUseIt) {
   const std::string refusal = "edge_player: /dev/null: lines cannot be had: ";
   EXPECT_EQ(player.output().substr(0, refusal.size()), refusal);
   EXPECT_EQ(player.output().find('\n'), player.output().size() - 1);
+}
+
+TEST_F(LiveRing, IsRecordedOrThePlayerSaysThatItIsNot) {
+  Process engine(fast_live(block_path(), "1000", "600"), in_folder("live.txt"));
+  ASSERT_TRUE(open_running()) << engine.output();
+  Process player({CRANKLOOP_EDGE_PLAYER, block_path(), "--record", "/dev/full", "--seconds", "0.2", "--priority", "0",
+                  "--cpu", "1023"},
+                 in_folder("player.txt"));
+  EXPECT_EQ(player.wait(), 1);
+  EXPECT_EQ(values_of(player.output()).count("edges_played"), 1u) << player.output();
+  EXPECT_NE(player.output().find("edge_player: /dev/full: cannot be written: "), std::string::npos) << player.output();
+  EXPECT_NE(player.output().find("edge_player: not on processor 1023: "), std::string::npos) << player.output();
+}
+
+TEST_F(LiveRing, LeavesARecordAloneWhereThereIsNothingToRecord) {
+  std::string text = contents(in_folder("fast.ini"));
+  text.resize(text.find("[trigger crank]"));
+  std::ofstream(in_folder("fast.ini")) << text;
+  std::ofstream(in_folder("played.csv")) << "precious\n";
+  Process engine(fast_live(block_path(), "1000", "600"), in_folder("live.txt"));
+  ASSERT_TRUE(open_running()) << engine.output();
+  Process player({CRANKLOOP_EDGE_PLAYER, block_path(), "--record", in_folder("played.csv")}, in_folder("player.txt"));
+  EXPECT_EQ(player.wait(), 1);
+  EXPECT_EQ(player.output(), "edge_player: " + block_path() + ": the engine has no trigger wheel\n");
+  EXPECT_EQ(contents(in_folder("played.csv")), "precious\n");
+}
+
+TEST_F(LiveRing, IsNotForCommandLinesThatCanOnlyBeGuessed) {
+  const std::vector<std::pair<std::vector<std::string>, std::string>> cases = {
+      {{CRANKLOOP_EDGE_PLAYER, "--cpu", "x"}, "edge_player: --cpu: 'x' is no number from 0 to 1023\n"},
+      {{CRANKLOOP_EDGE_PLAYER, "--cpu", "1.5"}, "edge_player: --cpu: '1.5' is no whole number\n"},
+      {{CRANKLOOP_EDGE_PLAYER, "--seconds", "1e"}, "edge_player: --seconds: '1e' is no number from 0.001 to 1000000\n"},
+      {{CRANKLOOP_EDGE_PLAYER, "--spin-us", "nan"}, "edge_player: --spin-us: 'nan' is no number from 0 to 1000000\n"},
+      {{CRANKLOOP_EDGE_PLAYER, "--secnds", "1"}, "edge_player: --secnds: is no option\n"},
+      {{CRANKLOOP_EDGE_PLAYER, "--seconds"}, "edge_player: --seconds: its value is missing\n"},
+      {{CRANKLOOP_EDGE_PLAYER, "1"}, "edge_player: 1: the path is " + block_path() + " already\n"},
+      {{CRANKLOOP_EDGE_PLAYER, "--lines", "17,"}, "edge_player: --lines: '' is no number from 0 to 4294967295\n"},
+      {{CRANKLOOP_EDGE_COUNTER, "--pattern", "60"}, "edge_counter: --pattern: '60' is no N-M, like 60-2\n"},
+      {{CRANKLOOP_EDGE_COUNTER, "--wheel", "-1"}, "edge_counter: --wheel: '-1' is no number from 0 to 1000\n"},
+      {{CRANKLOOP_IDLE_CONTROL, "--target-rpm", "8OO"},
+       "idle_control: --target-rpm: '8OO' is no number from 1 to 100000\n"},
+  };
+  for (const auto& [words, message] : cases) {
+    std::vector<std::string> all = words;
+    all.insert(all.begin() + 1, block_path());
+    if (words[0] == CRANKLOOP_EDGE_PLAYER) all.insert(all.begin() + 1, {"--record", in_folder("played.csv")});
+    Process refused(all, in_folder("refused.txt"));
+    EXPECT_EQ(refused.wait(), 1) << message;
+    EXPECT_EQ(refused.output().substr(0, message.size()), message);
+    EXPECT_EQ(refused.output().substr(message.size(), 7), "usage: ");
+    EXPECT_FALSE(std::filesystem::exists(in_folder("played.csv")));
+  }
 }
 
 // ---- the trace ------------------------------------------------------------------------------------------------------

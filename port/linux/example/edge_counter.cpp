@@ -13,8 +13,10 @@
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
-#include <cstring>
+#include <string>
+#include <vector>
 
+#include "command_line.hpp"
 #include "idle_law.hpp"
 
 namespace {
@@ -90,41 +92,39 @@ class EdgeSpeed {
   double speed_rad_s_ = 0;
 };
 
+ToothedWheel wheel_of(const CommandLine& line) {
+  ToothedWheel wheel;
+  wheel.index = static_cast<std::uint32_t>(line.whole_number("--wheel", 0, 1000));
+  if (!line.has("--pattern")) return wheel;
+  const std::vector<std::uint32_t> pattern = line.whole_numbers("--pattern", '-', 1000);
+  if (pattern.size() != 2 || pattern[1] >= pattern[0])
+    throw BadCommandLine("--pattern: '" + line.text("--pattern") + "' is no N-M, like 60-2");
+  wheel.places = static_cast<int>(pattern[0]);
+  wheel.missing = static_cast<int>(pattern[1]);
+  return wheel;
+}
+
 }  // namespace
 
 int main(int count, char** words) {
-  const char* path = nullptr;
-  double target_rpm = 800;
-  double seconds = 10;
-  ToothedWheel wheel;
-  bool understood = true;
-  for (int i = 1; i < count; ++i) {
-    const bool has_value = i + 1 < count;
-    if (has_value && std::strcmp(words[i], "--target-rpm") == 0) {
-      target_rpm = std::atof(words[++i]);
-    } else if (has_value && std::strcmp(words[i], "--seconds") == 0) {
-      seconds = std::atof(words[++i]);
-    } else if (has_value && std::strcmp(words[i], "--wheel") == 0) {
-      wheel.index = static_cast<std::uint32_t>(std::atoi(words[++i]));
-    } else if (has_value && std::strcmp(words[i], "--pattern") == 0) {
-      understood = std::sscanf(words[++i], "%d-%d", &wheel.places, &wheel.missing) == 2 && understood;
-    } else {
-      path = words[i];
-    }
-  }
-  understood = understood && wheel.places > wheel.missing && wheel.missing >= 0;
-  if (path == nullptr || !understood || !(target_rpm > 0) || !(seconds > 0 && seconds <= 1e6)) {
-    std::fprintf(stderr, "usage: edge_counter PATH [--target-rpm N] [--seconds S] [--wheel W] [--pattern N-M]\n");
-    return EXIT_FAILURE;
-  }
   try {
-    const SharedBlock block = wait_for(path, std::chrono::seconds(10));
+    const CommandLine line(count, words, {"--target-rpm", "--seconds", "--wheel", "--pattern"});
+    const double target_rpm = line.number("--target-rpm", 800, 1, 1e5);
+    const double seconds = line.number("--seconds", 10, 1e-3, 1e6);  // so many periods are an int
+    const ToothedWheel wheel = wheel_of(line);
+    const SharedBlock block = wait_for(line.path(), std::chrono::seconds(10));
     EdgeSpeed speed(block, wheel);
-    if (!speed.has_ring()) throw SharedBlockError(std::string(path) + ": the engine has no trigger wheel");
+    if (!speed.has_ring()) throw SharedBlockError(line.path() + ": the engine has no trigger wheel");
     const int status = hold_idle("edge_counter", block, speed, target_rpm / kRpmPerRad_s, seconds);
     std::printf("edges_read = %llu\n", static_cast<unsigned long long>(speed.read()));
     std::printf("edges_lost = %llu\n", static_cast<unsigned long long>(speed.lost()));
     return status;
+  } catch (const BadCommandLine& bad) {
+    std::fprintf(stderr,
+                 "edge_counter: %s\n"
+                 "usage: edge_counter PATH [--target-rpm N] [--seconds S] [--wheel W] [--pattern N-M]\n",
+                 bad.what());
+    return EXIT_FAILURE;
   } catch (const SharedBlockError& error) {
     std::fprintf(stderr, "edge_counter: %s\n", error.what());
     return EXIT_FAILURE;

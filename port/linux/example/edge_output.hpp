@@ -14,6 +14,7 @@
 #include <cstring>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace crankloop::port::example {
@@ -33,6 +34,8 @@ class EdgeOutput {
   virtual bool set(std::uint32_t wheel, bool high) noexcept = 0;
   /// After the edge that was due then was set, `set_ns` by the clock. For outputs that keep books.
   virtual void note(std::uint32_t, bool, std::uint64_t, std::int64_t) {}
+  /// After the last edge. Throws OutputRefused where the books are not complete.
+  virtual void finish() {}
 };
 
 /// Lines of a GPIO character device (/dev/gpiochipN, Linux 5.10 and later): wheel k's is the k-th. Outputs, low until
@@ -70,20 +73,29 @@ class GpioLines : public EdgeOutput {
 /// A CSV file instead of a device: wheel,level,due_ns,set_ns.
 class RecordedLines : public EdgeOutput {
  public:
-  explicit RecordedLines(const std::string& path) : file_{std::fopen(path.c_str(), "w")} {
+  explicit RecordedLines(const std::string& path) : path_{path}, file_{std::fopen(path.c_str(), "w")} {
     if (file_ == nullptr) throw OutputRefused(path + ": cannot be created: " + std::strerror(errno));
     std::fputs("wheel,level,due_ns,set_ns\n", file_);
   }
-  ~RecordedLines() override { std::fclose(file_); }
+  ~RecordedLines() override {
+    if (file_ != nullptr) std::fclose(file_);
+  }
 
   bool set(std::uint32_t, bool) noexcept override { return true; }
   void note(std::uint32_t wheel, bool high, std::uint64_t due_ns, std::int64_t set_ns) override {
-    std::fprintf(file_, "%u,%d,%llu,%lld\n", wheel, high ? 1 : 0, static_cast<unsigned long long>(due_ns),
-                 static_cast<long long>(set_ns));
+    const int written = std::fprintf(file_, "%u,%d,%llu,%lld\n", wheel, high ? 1 : 0,
+                                     static_cast<unsigned long long>(due_ns), static_cast<long long>(set_ns));
+    if (written < 0 && error_ == 0) error_ = errno;
+  }
+  void finish() override {
+    if (std::fclose(std::exchange(file_, nullptr)) != 0 && error_ == 0) error_ = errno;
+    if (error_ != 0) throw OutputRefused(path_ + ": cannot be written: " + std::strerror(error_));
   }
 
  private:
+  std::string path_;
   std::FILE* file_;
+  int error_ = 0;  ///< errno's number of the first row that was lost
 };
 
 }  // namespace crankloop::port::example

@@ -19,10 +19,12 @@
 #include <cstdlib>
 #include <cstring>
 #include <ctime>
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
 
+#include "command_line.hpp"
 #include "edge_output.hpp"
 #include "follow_block.hpp"
 #include "port/linux/latency.hpp"
@@ -40,18 +42,12 @@ using crankloop::port::SharedBlockError;
 using crankloop::port::StopSignal;
 
 struct Options {
-  const char* path = nullptr;
-  std::string chip, record;
+  std::string path, chip, record;
   std::vector<std::uint32_t> lines;
   double seconds = 1e6;
   double spin_us = 60;
   int priority = 70;
   int cpu = -1;
-
-  [[nodiscard]] bool complete() const {
-    return path != nullptr && record.empty() != chip.empty() && chip.empty() == lines.empty() && seconds > 0 &&
-           spin_us >= 0 && lines.size() <= 64;
-  }
 };
 
 void sleep_until(std::int64_t time_ns) noexcept {
@@ -120,75 +116,58 @@ void print(const Played& played) {
     std::printf("lateness_%s = %.3f us\n", quantile.name, static_cast<double>(late.quantile_ns(quantile.parts)) / 1e3);
 }
 
-std::vector<std::uint32_t> numbers_in(const char* text) {
-  std::vector<std::uint32_t> numbers;
-  for (char* end = nullptr; *text != '\0'; text = *end == ',' ? end + 1 : end) {
-    numbers.push_back(static_cast<std::uint32_t>(std::strtoul(text, &end, 10)));
-    if (end == text) return {};
-  }
-  return numbers;
+Options options_of(const CommandLine& line) {
+  Options options;
+  options.path = line.path();
+  options.chip = line.text("--chip");
+  options.record = line.text("--record");
+  options.lines = line.whole_numbers("--lines", ',', std::numeric_limits<std::uint32_t>::max());
+  options.seconds = line.number("--seconds", options.seconds, 1e-3, 1e6);
+  options.spin_us = line.number("--spin-us", options.spin_us, 0, 1e6);
+  options.priority = line.whole_number("--priority", options.priority, 99);
+  options.cpu = line.whole_number("--cpu", options.cpu, 1023);
+  if (options.record.empty() == options.chip.empty()) throw BadCommandLine("--chip or --record: one of them");
+  if (options.chip.empty() != options.lines.empty()) throw BadCommandLine("--chip and --lines belong together");
+  if (options.lines.size() > GPIO_V2_LINES_MAX) throw BadCommandLine("--lines: there are more than a request may have");
+  return options;
 }
 
-Options options_of(int count, char** words) {
-  Options options;
-  for (int i = 1; i < count; ++i) {
-    const std::string word = words[i];
-    const bool has_value = i + 1 < count;
-    if (has_value && word == "--chip") {
-      options.chip = words[++i];
-    } else if (has_value && word == "--lines") {
-      options.lines = numbers_in(words[++i]);
-    } else if (has_value && word == "--record") {
-      options.record = words[++i];
-    } else if (has_value && word == "--seconds") {
-      options.seconds = std::min(1e6, std::atof(words[++i]));
-    } else if (has_value && word == "--spin-us") {
-      options.spin_us = std::atof(words[++i]);
-    } else if (has_value && word == "--priority") {
-      options.priority = std::atoi(words[++i]);
-    } else if (has_value && word == "--cpu") {
-      options.cpu = std::atoi(words[++i]);
-    } else {
-      options.path = words[i];
-    }
-  }
-  return options;
+void say_if_refused(const std::string& what, int error) {
+  if (error != 0) std::fprintf(stderr, "edge_player: %s: %s\n", what.c_str(), std::strerror(error));
 }
 
 int run(const Options& options) {
   std::unique_ptr<EdgeOutput> output;
-  if (options.chip.empty()) {
-    output = std::make_unique<RecordedLines>(options.record);
-  } else {
-    output = std::make_unique<GpioLines>(options.chip, options.lines);
-  }
+  if (!options.chip.empty()) output = std::make_unique<GpioLines>(options.chip, options.lines);
   const SharedBlock block = wait_for(options.path, std::chrono::seconds(10));
   const auto played = std::make_unique<Played>();
   if (crankloop_live_edges_begin(block.data(), &played->reader) == 0)
-    throw SharedBlockError(std::string(options.path) + ": the engine has no trigger wheel");
+    throw SharedBlockError(options.path + ": the engine has no trigger wheel");
+  if (!output) output = std::make_unique<RecordedLines>(options.record);  // empties a file, so there has to be a block
   const RealTime real_time({options.priority, options.cpu});
-  if (real_time.priority_error() != 0)
-    std::fprintf(stderr, "edge_player: not SCHED_FIFO %d: %s\n", options.priority,
-                 std::strerror(real_time.priority_error()));
+  say_if_refused("not SCHED_FIFO " + std::to_string(options.priority), real_time.priority_error());
+  say_if_refused("not on processor " + std::to_string(options.cpu), real_time.cpu_error());
   const Pulse::Found found = play_all(block, options, *output, *played);
   print(*played);
+  output->finish();
   const std::string problem = Pulse::in_words(found);
-  if (!problem.empty()) throw SharedBlockError(std::string(options.path) + ": " + problem);
+  if (!problem.empty()) throw SharedBlockError(options.path + ": " + problem);
   return EXIT_SUCCESS;
 }
 
 }  // namespace
 
 int main(int count, char** words) {
-  const Options options = options_of(count, words);
-  if (!options.complete()) {
-    std::fprintf(stderr,
-                 "usage: edge_player PATH --chip /dev/gpiochipN --lines L,.. | --record F.csv\n"
-                 "       [--seconds S] [--spin-us N] [--priority P] [--cpu N]\n");
-    return EXIT_FAILURE;
-  }
   try {
-    return run(options);
+    return run(
+        options_of({count, words, {"--chip", "--lines", "--record", "--seconds", "--spin-us", "--priority", "--cpu"}}));
+  } catch (const BadCommandLine& bad) {
+    std::fprintf(stderr,
+                 "edge_player: %s\n"
+                 "usage: edge_player PATH --chip /dev/gpiochipN --lines L,.. | --record F.csv\n"
+                 "       [--seconds S] [--spin-us N] [--priority P] [--cpu N]\n",
+                 bad.what());
+    return EXIT_FAILURE;
   } catch (const std::runtime_error& error) {
     std::fprintf(stderr, "edge_player: %s\n", error.what());
     return EXIT_FAILURE;

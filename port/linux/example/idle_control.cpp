@@ -14,8 +14,8 @@
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
-#include <cstring>
 
+#include "command_line.hpp"
 #include "idle_law.hpp"
 
 namespace {
@@ -43,27 +43,16 @@ class ShownSpeed {
 }  // namespace
 
 int main(int count, char** words) {
-  const char* path = nullptr;
-  double target_rpm = 800;
-  double seconds = 10;
-  for (int i = 1; i < count; ++i) {
-    const bool has_value = i + 1 < count;
-    if (has_value && std::strcmp(words[i], "--target-rpm") == 0) {
-      target_rpm = std::atof(words[++i]);
-    } else if (has_value && std::strcmp(words[i], "--seconds") == 0) {
-      seconds = std::atof(words[++i]);
-    } else {
-      path = words[i];
-    }
-  }
-  if (path == nullptr || !(target_rpm > 0) || !(seconds > 0 && seconds <= 1e6)) {  // so many periods are an int
-    std::fprintf(stderr, "usage: idle_control PATH [--target-rpm N] [--seconds S]\n");
-    return EXIT_FAILURE;
-  }
   try {
-    const SharedBlock block = wait_for(path, std::chrono::seconds(10));
+    const CommandLine line(count, words, {"--target-rpm", "--seconds"});
+    const double target_rpm = line.number("--target-rpm", 800, 1, 1e5);
+    const double seconds = line.number("--seconds", 10, 1e-3, 1e6);  // so many periods are an int
+    const SharedBlock block = wait_for(line.path(), std::chrono::seconds(10));
     ShownSpeed speed(block);
     return hold_idle("idle_control", block, speed, target_rpm / kRpmPerRad_s, seconds);
+  } catch (const BadCommandLine& bad) {
+    std::fprintf(stderr, "idle_control: %s\nusage: idle_control PATH [--target-rpm N] [--seconds S]\n", bad.what());
+    return EXIT_FAILURE;
   } catch (const SharedBlockError& error) {
     std::fprintf(stderr, "idle_control: %s\n", error.what());
     return EXIT_FAILURE;
