@@ -205,6 +205,46 @@ TEST_F(NewEngine, SaysItsCrankshaftAsShowDoes) {
   }
 }
 
+/// At the ends of the ranges, with any ratio of bore to stroke that engines have.
+TEST_F(NewEngine, IsCompleteForEverySizeThatItTakes) {
+  const struct {
+    const char* bore_mm;
+    const char* stroke_mm;
+    bool gas;
+  } sizes[] = {{"1", "5", false},  {"800", "400", false}, {"800", "4000", false}, {"13", "5", true},
+               {"13", "13", true}, {"400", "200", true},  {"400", "800", true}};
+  for (const auto& size : sizes) {
+    for (const char* type : {"si", "diesel", "tractor"}) {
+      for (const char* valves : {"2", "4"}) {
+        std::vector<std::string> words{"new",          "--cylinders", "4",  "--bore-mm", size.bore_mm, "--stroke-mm",
+                                       size.stroke_mm, "--type",      type, "--valves",  valves};
+        if (size.gas) words.emplace_back("--gas");
+        const Answer answer = run(words);  // most of these sizes are unusual, and warned of
+        EXPECT_EQ(answer.status, 0) << size.bore_mm << " x " << size.stroke_mm << type << valves << answer.error;
+      }
+    }
+  }
+}
+
+/// Its tuned runners would be longer than an engine file takes, and than anybody builds.
+TEST_F(NewEngine, ThatIsSlowHasNoTunedRunners) {
+  const std::vector<std::string> single{"new", "--cylinders", "1", "--bore-mm", "86", "--stroke-mm", "86", "--gas"};
+  const auto with_rpm = [&](const char* rated_rpm) {
+    std::vector<std::string> words = single;
+    words.insert(words.end(), {"--rated-rpm", rated_rpm});
+    const Answer answer = run(words);
+    EXPECT_EQ(answer.status, 0) << answer.error;
+    return answer.out;
+  };
+  EXPECT_EQ(with_rpm("1500").find("runner"), std::string::npos);
+  EXPECT_GT(value_of(with_rpm("3000"), "intake_runner_mm"), 1000);
+}
+
+TEST_F(NewEngine, HasItsNameWithoutTheBlanksAroundIt) {
+  made({"--cylinders", "1", "--bore-mm", "80", "--stroke-mm", "80", "--name", "  b "});
+  EXPECT_NE(output({"show"}).find("\nname = b "), std::string::npos);
+}
+
 TEST_F(NewEngine, RefusesWhatMakesNoEngine) {
   const std::vector<std::string> four{"new", "--cylinders", "4", "--bore-mm", "95", "--stroke-mm", "115"};
   const auto refused = [&](std::vector<std::string> words, const std::vector<std::string>& more, const char* fragment) {
@@ -223,7 +263,17 @@ TEST_F(NewEngine, RefusesWhatMakesNoEngine) {
   refused(four, {"--firing-angles-deg", "0,540,180"}, "crankloop new: firing_angles_deg");
   refused(four, {"--net-mep-kPa", "-900"}, "--net-mep-kPa");
   refused(four, {"--net-mep-kPa", "90000"}, "crankloop new: net_mep_kPa");
-  refused(four, {"--name", "a # b"}, "--name");
+  for (const char* name : {"a # b", "# b", " # b"})
+    refused(four, {"--name", name}, "--name: a # at the start or behind a blank starts a comment");
+  refused(four, {"--name", "  "}, "--name: the value is missing");
+  const auto of_size = [](const char* bore_mm, const char* stroke_mm) {
+    return std::vector<std::string>{"new", "--cylinders", "4", "--bore-mm", bore_mm, "--stroke-mm", stroke_mm};
+  };
+  refused(of_size("2000", "4000"), {}, "--bore-mm: 2000 is out of range; allowed: 1 to 800");
+  refused(of_size("0.01", "0.01"), {}, "--bore-mm: 0.01 is out of range; allowed: 1 to 800");
+  refused(of_size("80", "4.9"), {}, "--stroke-mm: 4.9 is out of range; allowed: 5 to 4000");
+  refused(of_size("12", "12"), {"--gas"}, "--bore-mm: 12 is out of range with --gas; allowed: 13 to 400");
+  refused(of_size("500", "500"), {"--gas"}, "--bore-mm: 500 is out of range with --gas; allowed: 13 to 400");
   refused({"new", "--cylinders", "7", "--bore-mm", "95", "--stroke-mm", "115"}, {},
           "--firing-order or --firing-angles-deg is missing");
 }

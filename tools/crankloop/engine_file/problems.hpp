@@ -15,6 +15,16 @@
 
 namespace crankloop::program {
 
+/// Of lines that begin with `path`, without the line numbers behind it: of a text that the user does not have.
+[[nodiscard]] inline std::string without_line_numbers(std::string text, const std::string& path) {
+  for (std::size_t at = 0; (at = text.find(path + ":", at)) != std::string::npos;) {
+    at += path.size();
+    const std::size_t end = text.find_first_not_of("0123456789", at + 1);
+    if (end < text.size() && text[end] == ':') text.erase(at, end - at);
+  }
+  return text;
+}
+
 class Problems {
  public:
   /// Runs it; false if it throws an InputError, which is recorded, also one of several lines.

@@ -29,6 +29,7 @@ void add_gas_exchange(Draft& draft, const Numbers& n) {
   const Combustion& burn = usual_combustion(n.design);
   const GasExchange& usual = *n.gas;
   const bool spark = n.design.type == EngineType::spark_ignition;
+  const bool has_runners = usual.intake_runner_mm > 0;
   const auto rounded = [&](const char* key, double value, const std::string& why) {
     draft.assume(key, to_three_digits(value), why);
   };
@@ -36,11 +37,11 @@ void add_gas_exchange(Draft& draft, const Numbers& n) {
   draft.line("source", "gas", "given");
   draft.assume("crankcase_kPa", 100, "ambient");
   draft.section("gas");
-  const std::string volumes =
-      shortest(kManifoldVolumes) + " times the displacement" + (spark ? ", five volumes of a runner or more" : "");
+  const std::string volumes = shortest(kManifoldVolumes) + " times the displacement" +
+                              (has_runners ? ", five volumes of a runner or more" : "");
   rounded("intake_volume_cm3", usual.intake_volume_cm3, volumes);
   rounded("exhaust_volume_cm3", usual.exhaust_volume_cm3, volumes);
-  if (spark) {
+  if (has_runners) {
     rounded("intake_runner_mm", usual.intake_runner_mm, "tuned to 0.8 of the rated speed");
     rounded("intake_runner_diameter_mm", usual.intake_runner_diameter_mm, "0.44 bores");
     rounded("exhaust_runner_mm", usual.exhaust_runner_mm, "1.4 times the intake runner");

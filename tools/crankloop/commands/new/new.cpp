@@ -11,8 +11,10 @@
 #include "../../command_line/engine_argument.hpp"
 #include "../../engine_file/crankshaft_words.hpp"
 #include "../../engine_file/plausibility.hpp"
+#include "../../engine_file/problems.hpp"
 #include "../../files/error.hpp"
 #include "../../files/output_file.hpp"
+#include "../../files/words.hpp"
 #include "draft.hpp"
 
 namespace crankloop::program {
@@ -20,17 +22,8 @@ namespace {
 
 constexpr const char* kCommand = "crankloop new";
 
-/// Removes line numbers, because the user does not have the file: "crankloop new: firing_order: cylinder 2 does not
-/// fire".
-InputError without_lines(const InputError& error) {
-  const std::string name = kCommand;
-  std::string told = error.what();
-  for (std::size_t at = 0; (at = told.find(name + ":", at)) != std::string::npos; ++at) {
-    const std::size_t from = at + name.size();
-    told.erase(from, told.find_first_not_of("0123456789", from + 1) - from);
-  }
-  return InputError(told);
-}
+/// "crankloop new: firing_order: cylinder 2 does not fire": the user does not have the file.
+InputError without_lines(const InputError& error) { return InputError(without_line_numbers(error.what(), kCommand)); }
 
 EngineFile read_draft(const std::string& text) {
   try {
@@ -49,7 +42,24 @@ std::unique_ptr<IndicatorDiagram> diagram_of(const EngineFile& engine) {
   return diagram;
 }
 
+/// As it stands in the file, behind the blank of "name = ".
+void require_name(const std::string& name) {
+  if (trim(name).empty()) throw UsageError("--name: the value is missing");
+  if ((" " + name).find(" #") != std::string::npos)
+    throw UsageError("--name: a # at the start or behind a blank starts a comment in an engine file");
+}
+
+/// Outside of it, what is assumed of gas exchange is beyond what an engine file takes.
+void require_bore_for_gas(double bore_mm) {
+  constexpr Range kBore_mm = from(13).up_to(400);
+  if (!kBore_mm.contains(bore_mm))
+    throw UsageError("--bore-mm: " + shortest(bore_mm) +
+                     " is out of range with --gas; allowed: " + describe(kBore_mm, ""));
+}
+
 int run_new(const Arguments& arguments) {
+  require_name(arguments.text("--name"));
+  if (arguments.has("--gas")) require_bore_for_gas(arguments.number("--bore-mm"));
   const std::string& type = arguments.text("--type");
   Numbers n;
   n.design.type = type == "si"       ? EngineType::spark_ignition
@@ -84,8 +94,6 @@ int run_new(const Arguments& arguments) {
       crank.text() + body.text() + crankshaft_comments(half_way.definition().layout) + (n.gas ? gas : diagram).text() +
       rest.text();
   const EngineFile engine = read_draft(text);
-  if (engine.name() != arguments.text("--name"))
-    throw UsageError("--name: a blank followed by # starts a comment in an engine file");
   tell_warnings(arguments, warnings_about(engine));
   print(text);
   return kSuccess;
@@ -93,8 +101,8 @@ int run_new(const Arguments& arguments) {
 
 constexpr Option kNewOptions[] = {
     required(whole_number("--cylinders", "N", from(1).up_to(kMaxCylinders), "number of cylinders")),
-    required(number("--bore-mm", "D", above(0).up_to(2000), "bore in mm")),
-    required(number("--stroke-mm", "S", above(0).up_to(4000), "stroke in mm")),
+    required(number("--bore-mm", "D", from(1).up_to(800), "bore in mm, with --gas 13 to 400")),
+    required(number("--stroke-mm", "S", from(5).up_to(4000), "stroke in mm")),
     choice("--type", "si|diesel|tractor", "spark ignition, car and truck diesel, or tractor diesel", "si"),
     choice("--valves", "2|4", "valves of a cylinder", "4"),
     flag("--gas", "pressure from gas exchange instead of a diagram: [gas], ports and seats of the valves"),

@@ -124,15 +124,17 @@ GasExchange usual_gas_exchange(const EngineDesign& design, const CylinderSize& s
   g.wall_C = spark ? 150 : 180;
   g.blow_by_mm2 = 0.1 * bore_mm / 86;
   if (!spark) return g;
-  constexpr double kSound_m_s = 350, kEngelman = 2.1, kTunedAt = 0.8;
+  constexpr double kSound_m_s = 350, kEngelman = 2.1, kTunedAt = 0.8, kLongest_mm = 3000, kExhaustPerIntake = 1.4;
   const auto area_cm2 = [](double diameter_mm) { return kPi / 4 * diameter_mm * diameter_mm / 100; };
   const double swing_rad_s = 2 * kPi * kEngelman * kTunedAt * rated_rpm / 60;
   const double behind_cm3 = size.displacement_cm3 / 2 + size.clearance_cm3;
-  g.intake_runner_diameter_mm = 0.44 * bore_mm;
+  const double intake_diameter_mm = 0.44 * bore_mm;
+  const double intake_mm = 10 * std::pow(100 * kSound_m_s / swing_rad_s, 2) * area_cm2(intake_diameter_mm) / behind_cm3;
+  if (kExhaustPerIntake * intake_mm > kLongest_mm) return g;  // too slow to be tuned
+  g.intake_runner_diameter_mm = intake_diameter_mm;
   g.exhaust_runner_diameter_mm = 0.4 * bore_mm;
-  g.intake_runner_mm =
-      10 * std::pow(100 * kSound_m_s / swing_rad_s, 2) * area_cm2(g.intake_runner_diameter_mm) / behind_cm3;
-  g.exhaust_runner_mm = 1.4 * g.intake_runner_mm;
+  g.intake_runner_mm = intake_mm;
+  g.exhaust_runner_mm = kExhaustPerIntake * intake_mm;
   const auto least_cm3 = [&](double length_mm, double diameter_mm) {
     return kRunnerVolumes * length_mm / 10 * area_cm2(diameter_mm);
   };

@@ -103,7 +103,7 @@ struct GasExchange {
   double throttle_mm2;
   double throttle_closed_mm2;
   double outlet_mm2;
-  double intake_runner_mm;  ///< 0: none, of diesels
+  double intake_runner_mm;  ///< 0: none, of diesels and of engines too slow to be tuned
   double intake_runner_diameter_mm;
   double exhaust_runner_mm;
   double exhaust_runner_diameter_mm;
