@@ -85,6 +85,29 @@ TEST_F(BadCommandLine, RefusesOptionsOfWhichOneWouldBeIgnored) {
       {"--set: rpm is varied; give it once", "usage: crankloop study"});
 }
 
+TEST_F(BadCommandLine, NamesTheLeastEventBudgetOfTheEngineAndTheTick) {
+  // `show` has 2 fine steps in the worst tick of 100 us; an event takes 2 more.
+  expect_usage({"tables", kSample, "--event-budget", "3"},
+               {"crankloop tables: --event-budget: 3 is too small: a valve needs 4 here; allowed: 4 to 32768",
+                "usage: crankloop tables"});
+  const std::string least = "a valve needs 8 here; allowed: 8 to 32768";
+  expect_usage({"tables", kSample, "--tick-us", "500", "--event-budget", "7"}, {least});
+  expect_usage({"tables", kSample, "--tick-us", "500", "--event-budget", "7", "--real", "double"}, {least});
+  EXPECT_EQ(run({"tables", kSample, "--tick-us", "500", "--event-budget", "8"}).status, 0);
+}
+
+TEST_F(BadCommandLine, RefusesARunThatIsShorterThanATick) {
+  for (const std::string seconds : {"1e-12", "0.00009"}) {
+    expect_usage({"run", kSample, "--free", "--seconds", seconds}, {"is shorter than a tick of 100 us"});
+    EXPECT_NE(run({"run", kSample, "--free", "--seconds", seconds}).error.find("--seconds: "), std::string::npos);
+  }
+  EXPECT_NE(run({"run", kSample, "--free", "--seconds", "0.0001"}).out.find("\nticks = 1\n"), std::string::npos);
+}
+
+TEST_F(BadCommandLine, WritesANumberThatIsOutOfRangeInDigits) {
+  expect_usage({"run", kSample, "--cycles", "2147483648"}, {"--cycles: 2147483648 is out of range; allowed: 1 to "});
+}
+
 TEST_F(BadCommandLine, NamesAProcessorThatIsNotThere) {
   expect_usage({"live", kSample, "--seconds", "1", "--cpu", "1023"},
                {"--cpu 1023: this process may not use such a processor"});
@@ -104,7 +127,7 @@ TEST_F(BadCommandLine, TakesOutputByAnyOfItsNames) {
   }
   expect_usage({"pack", folder_ / "packed"}, {"--output is missing", "usage: crankloop pack"});
   expect_usage({"page", kSample, "-o", "x", "--output", "y"}, {"--out is given twice"});
-  expect_usage({"show", kSample, "-o", "x"}, {"unknown option '--output'"});
+  expect_usage({"show", kSample, "-o", "x"}, {"unknown option '-o'"});
 }
 
 TEST_F(BadCommandLine, CarriesNoControlCodesToTheTerminal) {

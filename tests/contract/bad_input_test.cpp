@@ -84,6 +84,7 @@ TEST_F(BadInput, EveryNumberMustBeAPlainFiniteNumber) {
       {"inf", "not a finite number"}, {"-INF", "not a finite number"}, {"Infinity", "not a finite number"},
       {"nan", "not a finite number"}, {"NaN", "not a finite number"},  {"1e999", "too large or too small"},
       {"-1e999", "too large"},        {"1e-999", "or too small"},      {"1e30", "out of range; allowed: "},
+      {"95\u00A0", "no-break space"},
   };
   // Every key says no to three kinds of nonsense, one key to all: they share what reads a number, but each must use it.
   for (const auto& [text, complaint] : kNoNumbers) {
@@ -412,10 +413,21 @@ TEST_F(BadDiagram, RisesThroughOnePeriod) {
   expect_diagram_refused(table(722), ":723", {"from -360 to 361 deg", "one period of 720 deg"});
   expect_diagram_refused(table(360), ":361", {"from -360 to -1 deg", "one period of 720 deg"});
   expect_diagram_refused(table(3), ":4", {"3 rows are too few"});
+  expect_diagram_refused(table(1), ":2", {"1 row is too few"});
   for (const int rows : {720, 721}) {  // the closing row may stand there or not
     write("p.csv", table(rows));
     expect_accepted(sample_.changed("source", "source = angle_table\nfile = p.csv"));
   }
+}
+
+TEST_F(BadDiagram, HasTheVolumesOfItsEngine) {
+  // pi / 4 * 9.5^2 * 11.5 = 815.145 cm3 displaced, an 18th of it above the piston.
+  std::string litres = "volume_cm3,pressure_kPa\n0.0453,100\n";
+  for (int i = 1; i < 20; ++i) litres += std::to_string(0.0453 + 0.04 * i) + ",100\n";
+  expect_diagram_refused(litres, ":2",
+                         {"volume_cm3: 0.0453 lies outside this engine's 45.2858 to 860.431 cm3 "
+                          "(bore, stroke, compression_ratio)"},
+                         "volume_table");
 }
 
 TEST_F(BadInput, ShowIsAnEngineFileThatShowsTheSame) {

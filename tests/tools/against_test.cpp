@@ -76,6 +76,8 @@ TEST_F(RunAgainst, RefusesWhatIsOfOneEngine) {
   refuses({path("none.ini")}, "none.ini: cannot be read");
   std::ofstream(path("bare.ini")) << "[engine]\nname = bare\nrated_rpm = 1000\n";
   refuses({path("bare.ini")}, "section [crank] is missing");
+  refuses({kSample, "--rpm", "7000"},
+          std::string(kSample) + ": 7000 rpm is beyond the engine's max_rpm of 3000");  // the 125's is higher
 }
 
 }  // namespace

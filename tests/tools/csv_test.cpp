@@ -105,6 +105,12 @@ TEST(Numbers, AreReadTheSameWhereverTheyAreWritten) {
   }
 }
 
+TEST(Numbers, NameTheSpaceThatLooksLikeABlank) {
+  for (const char* text : {"95\u00A0", "\u00A095", "1\u00A0000", "1\u202F000", "95\u00A0mm"})
+    EXPECT_NE(parse_number(text).problem.find("it has a no-break space"), std::string::npos) << text;
+  EXPECT_NE(parse_number("95 mm").problem.find("'mm' follows it"), std::string::npos);
+}
+
 TEST(Numbers, TellTheirRangeInWords) {
   EXPECT_EQ(describe(above(0).up_to(2000), "mm"), "above 0, at most 2000 mm");
   EXPECT_EQ(describe(from(0).below(720), "deg"), "0 to below 720 deg");
@@ -113,6 +119,8 @@ TEST(Numbers, TellTheirRangeInWords) {
   EXPECT_EQ(describe(Range{}, "g"), "");
   EXPECT_EQ(parse_number("0", above(0).up_to(100000), "rpm").problem,
             "0 is out of range; allowed: above 0, at most 100000 rpm");
+  EXPECT_EQ(parse_number("2147483648", from(1).up_to(1000000), "").problem,
+            "2147483648 is out of range; allowed: 1 to 1000000");
   EXPECT_FALSE(parse_number("720", from(0).below(720), "deg").ok());
 }
 

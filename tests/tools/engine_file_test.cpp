@@ -590,6 +590,9 @@ TEST_F(EngineFileTest, ACylinderHasOneMisfireRule) {
   };
   says({"cylinder=2 every=16", "cylinder=2 every=3"}, "--misfire: cylinder 2 has two rules; give it one");
   says({"cylinder=2 every=16 cylinder=3"}, "cylinder is given twice; each cylinder has its own rule");
+  says({"cylinder=2 every=0"}, "--misfire 'cylinder=2 every=0': every: 0 is out of range");
+  says({"cylinder=2"}, "--misfire 'cylinder=2': [misfire 2] needs either every, or ");
+  says({"cylinder=2", "every=16"}, "--misfire 'every=16': lacks cylinder=N; write a rule in quotes, like ");
   const std::string text = refusal(contents(kSample) + "[misfire 2]\nevery = 2\n[misfire 02]\nevery = 3\n");
   EXPECT_NE(text.find("[misfire 02]: this cylinder has a rule already"), std::string::npos) << text;
 }

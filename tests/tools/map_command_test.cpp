@@ -303,10 +303,12 @@ TEST_F(MapCommand, RefusesWhatIsNoMap) {
   refuses("1000:6000", "0:1:3", "--rpm: give FROM:TO:N");
   refuses("6000:1000:3", "0:1:3", "--rpm: FROM must be less than TO");
   refuses("1000:6000:1", "0:1:3", "--rpm: FROM must be less than TO, or the same with N = 1");
-  refuses("1000:6000:2.5", "0:1:3", "'2.5' is not a whole number");
-  refuses("1000:6000:3", "0:1.5:3", "--throttle: 1.5 is out of range");
+  refuses("1000:6000:2.5", "0:1:3", "--rpm: N, the number of values: '2.5' is not a whole number");
+  refuses("1000:6000:0", "0:1:2", "--rpm: N, the number of values: 0 is out of range; allowed: 1 to 1000");
+  refuses("0:6000:2", "0:1:2", "--rpm: FROM: 0 is out of range");
+  refuses("1000:6000:3", "0:1.5:3", "--throttle: TO: 1.5 is out of range");
   refuses("1000:6000:1000", "0:1:1000", "a map of 1e+06 points");
-  refuses("1000:500000:2", "1:1:1", "--rpm: 500000 is out of range");
+  refuses("1000:500000:2", "1:1:1", "--rpm: TO: 500000 is out of range");
   EXPECT_NE(refusal({kSample, "--rpm", "1000:2000:2", "--throttle", "0:1:2"}).find("has no [pressure] source = gas"),
             std::string::npos);
   EXPECT_NE(refusal({kFour, "--rpm", "8000:10000:2", "--throttle", "1:1:1"})

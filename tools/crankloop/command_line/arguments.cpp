@@ -12,8 +12,8 @@ namespace {
 /// What one command lists as --output and another as --out may be written either way.
 bool is_output(std::string_view name) { return name == "--output" || name == "--out"; }
 
-const Option& known_option(const Command& command, std::string_view name) {
-  if (name == "-o") name = "--output";
+const Option& known_option(const Command& command, std::string_view typed) {
+  const std::string_view name = typed == "-o" ? "--output" : typed;
   for (const Option& option : command.options) {
     if (name == option.name || (is_output(name) && is_output(option.name))) return option;
   }
@@ -22,7 +22,7 @@ const Option& known_option(const Command& command, std::string_view name) {
   for (const Option& option : options_of(command)) names.emplace_back(option.name);
   const std::string guess = suggestion(name, names);
   const std::string all = names.empty() ? "; this command has none" : "; options: " + join(names);
-  throw UsageError("unknown option " + in_quotes(name) + (guess.empty() ? all : guess));
+  throw UsageError("unknown option " + in_quotes(typed) + (guess.empty() ? all : guess));
 }
 
 }  // namespace

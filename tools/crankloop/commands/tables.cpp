@@ -223,6 +223,22 @@ void print_sections(Printer& p, const Stores<Real>& s, const std::string& real, 
   p.text("\nconstexpr " + type + " sections = [] {\n  " + type + " s;\n" + all + "  return s;\n}();\n");
 }
 
+/// Of an --event-budget below what tabulate takes: the fine steps of any valve in a tick, and an event.
+[[noreturn]] void refuse_event_budget(const EngineFile& engine, TickOptions options) {
+  const int budget = options.valves.event_budget;
+  options.valves.event_budget = 0;
+  detail::ValveMotion<double> motions[kMaxTrains];
+  TableTargets<double> targets;
+  targets.valve_motions = motions;
+  const Status status = tabulate(engine.definition(), options, targets);
+  if (!status.ok()) throw explain_tabulate(engine, status, options.tick_s, options.valves);
+  std::uint32_t parts = 0;
+  for (int t = 0; t < engine.definition().train_count; ++t) parts = std::max(parts, motions[t].parts);
+  const std::string least = std::to_string(parts + detail::kUnitsOfEvent);
+  throw UsageError("--event-budget: " + std::to_string(budget) + " is too small: a valve needs " + least +
+                   " here; allowed: " + least + " to " + std::to_string(kMaxEventBudget));
+}
+
 template <class Real>
 void print_header(Output& out, const EngineFile& engine, const Arguments& arguments) {
   const std::string& real = arguments.text("--real");
@@ -235,6 +251,7 @@ void print_header(Output& out, const EngineFile& engine, const Arguments& argume
        arguments.has("--event-budget") ? arguments.whole_number("--event-budget") : 0},
       arguments.has("--max-rpm") ? arguments.number("--max-rpm") / kRpmPerRad_s : 0};
   const Status status = tabulate(engine.definition(), options, stores->targets(), &report);
+  if (status.field == std::string_view("options.valves.event_budget")) refuse_event_budget(engine, options);
   if (!status.ok()) throw explain_tabulate(engine, status, options.tick_s, options.valves);
   const std::string& name_space = arguments.text("--namespace");
   Printer p(out);

@@ -2,6 +2,8 @@
 #include <cmath>
 #include <string_view>
 
+#include <crankloop/tabulate/mechanism.hpp>
+
 #include "../files/words.hpp"
 #include "engine_file.hpp"
 #include "engine_file_parts.hpp"
@@ -38,6 +40,12 @@ std::string too_much_heat(const SectionValues& gas) {
          ", and no fuel has more (petrol 2.8, hydrogen 3.4)";
 }
 
+std::string volume_outside(double volume_m3, const Crank& crank) {
+  const double clearance_m3 = clearance_volume_m3(crank);
+  return "volume_cm3: " + brief(volume_m3 * 1e6) + " lies outside this engine's " + brief(clearance_m3 * 1e6) + " to " +
+         brief((clearance_m3 + swept_volume_m3(crank)) * 1e6) + " cm3 (bore, stroke, compression_ratio)";
+}
+
 }  // namespace
 
 std::string in_words(const SectionValues& home, const Key& key, Reason reason, const std::string& refusal) {
@@ -63,8 +71,9 @@ InputError EngineFile::explain(const Status& status) const {
     const int line = has_row ? point_lines_[static_cast<std::size_t>(status.index)]
                              : (point_lines_.empty() ? 1 : point_lines_.back());
     std::string message = "the diagram " + std::string(describe(status.reason));
-    if (status.reason == Reason::too_few_points)
-      message = std::to_string(points_.size()) + " rows are too few for a diagram";
+    if (status.reason == Reason::too_few_points) message = too_few_rows(points_.size(), "a diagram");
+    if (status.reason == Reason::out_of_range && has_row && definition_.pressure.source == PressureSource::volume_table)
+      message = volume_outside(points_[static_cast<std::size_t>(status.index)].at, definition_.crank);
     if (status.reason == Reason::not_one_period && !points_.empty()) {
       message = "the angles run from " + brief(points_.front().at) + " to " + brief(points_.back().at) +
                 " deg; they must span one period of 720 deg (a closing row at its end may be left out)";

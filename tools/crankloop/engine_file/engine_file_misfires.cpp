@@ -4,6 +4,7 @@
 #include "../files/words.hpp"
 #include "engine_file.hpp"
 #include "engine_file_parts.hpp"
+#include "problems.hpp"
 
 namespace crankloop::program {
 namespace {
@@ -82,7 +83,8 @@ IniSection section_of(const std::string& words) {
       section.entries.push_back({key, value, 1});
     }
   }
-  if (section.name.empty()) throw UsageError(path + ": lacks cylinder=N; write it like 'cylinder=2 every=16'");
+  if (section.name.empty())
+    throw UsageError(path + ": lacks cylinder=N; write a rule in quotes, like 'cylinder=2 every=16'");
   return section;
 }
 
@@ -99,15 +101,21 @@ void EngineFile::build_misfires() {
 }
 
 void EngineFile::set_misfires(const std::vector<std::string>& orders) {
+  std::vector<IniSection> sections;  // all first, so that parts of a rule without quotes are told as that
+  for (const std::string& order : orders) sections.push_back(section_of(order));
   bool ruled[kMaxCylinders] = {};  // by this command line, which replaces the file's
-  for (const std::string& order : orders) {
-    const std::string path = "--misfire " + in_quotes(order);
-    const SectionValues values = resolve_section(section_of(order), path);
-    const auto cylinder = static_cast<std::size_t>(cylinder_of(values, definition_.layout.cylinders, path));
-    if (ruled[cylinder])
-      throw UsageError("--misfire: cylinder " + std::to_string(cylinder + 1) + " has two rules; give it one");
-    ruled[cylinder] = true;
-    definition_.misfires[cylinder] = build_misfire(values, path);
+  for (std::size_t i = 0; i < orders.size(); ++i) {
+    const std::string path = "--misfire " + in_quotes(orders[i]);
+    try {
+      const SectionValues values = resolve_section(sections[i], path);
+      const std::size_t cylinder = cylinder_of(values, definition_.layout.cylinders, path);
+      if (ruled[cylinder])
+        throw UsageError("--misfire: cylinder " + std::to_string(cylinder + 1) + " has two rules; give it one");
+      ruled[cylinder] = true;
+      definition_.misfires[cylinder] = build_misfire(values, path);
+    } catch (const InputError& error) {
+      throw UsageError(without_line_numbers(error.what(), path));
+    }
   }
 }
 

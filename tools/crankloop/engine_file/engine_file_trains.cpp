@@ -227,8 +227,7 @@ InputError EngineFile::explain_cam(const Status& status, const TrainOfFile& trai
                                      three_digits_up(std::abs(odd->off_m) * 1e6) + " um off its neighbours"));
   }
   std::string message = "the cam " + std::string(describe(status.reason));
-  if (status.reason == Reason::too_few_points)
-    message = std::to_string(train.points.size()) + " rows are too few for a cam";
+  if (status.reason == Reason::too_few_points) message = too_few_rows(train.points.size(), "a cam");
   if (status.reason == Reason::inconsistent) {
     message = "the lobe must rise from the base circle and return to it within the table; ";
     message += smoothing.is_open() ? "no row on this side comes down to 50 um"

@@ -20,6 +20,10 @@ bool starts_like_infinity_or_nan(std::string_view unsigned_text) {
 std::string why_not_a_number(std::string_view text, std::string_view rest) {
   if (text.empty()) return "the value is missing";
   const std::string what = in_quotes(text) + " is not a number";
+  for (const char* no_break : {"\u00A0", "\u202F"}) {
+    if (text.find(no_break) != std::string_view::npos)
+      return what + " (it has a no-break space, which looks like a blank)";
+  }
   if (rest.empty() || rest.size() == text.size()) return what;
   if (rest[0] == ',') return what + " (the decimal sign is a point)";
   if (rest[0] == 'x' || rest[0] == 'X') return what + " (hexadecimal is not accepted)";
@@ -30,13 +34,13 @@ std::string why_not_a_number(std::string_view text, std::string_view rest) {
 std::string rounded(double value, int digits) { return decimal::general(value == 0 ? 0 : value, digits); }
 
 /// As people write it: 2147483647 and 1e9, where shortest() has 2.147483647e+09 and 1e+09.
-std::string bound_in_words(double bound) {
-  const std::string text = shortest(bound);
+std::string as_people_write(double value) {
+  const std::string text = shortest(value);
   const std::size_t exponent = text.find("e+");
   if (exponent == std::string::npos) return text;
   if (text.find('.') == std::string::npos)
     return text.substr(0, exponent) + "e" + std::to_string(std::stoi(text.substr(exponent + 2)));
-  return rounded(bound, 15);
+  return rounded(value, 15);
 }
 
 }  // namespace
@@ -47,12 +51,12 @@ std::string describe(const Range& range, std::string_view unit) {
   const std::string least = (range.without_least ? "above "
                              : has_most          ? ""
                                                  : "at least ") +
-                            bound_in_words(range.least);
+                            as_people_write(range.least);
   const std::string joint = !has_least || range.without_least ? (range.without_most ? "below " : "at most ")
                                                               : (range.without_most ? "to below " : "to ");
   std::string words;
   if (has_least) words += least;
-  if (has_most) words += (!has_least ? "" : range.without_least ? ", " : " ") + joint + bound_in_words(range.most);
+  if (has_most) words += (!has_least ? "" : range.without_least ? ", " : " ") + joint + as_people_write(range.most);
   if (!words.empty() && !unit.empty()) words.append(" ").append(unit);
   return words;
 }
@@ -75,7 +79,7 @@ ParsedNumber parse_number(std::string_view text) {
 ParsedNumber parse_number(std::string_view text, const Range& range, std::string_view unit) {
   ParsedNumber number = parse_number(text);
   if (number.ok() && !range.contains(number.value)) {
-    number.problem = shortest(number.value) + " is out of range; allowed: " + describe(range, unit);
+    number.problem = as_people_write(number.value) + " is out of range; allowed: " + describe(range, unit);
   }
   return number;
 }

@@ -84,6 +84,10 @@ std::string join(const std::vector<std::string>& words, const char* separator) {
   return text;
 }
 
+std::string too_few_rows(std::size_t rows, const char* what) {
+  return std::to_string(rows) + (rows == 1 ? " row is" : " rows are") + " too few for " + what;
+}
+
 std::string unit_in_words(std::string_view unit) {
   std::string text(unit);
   if (const std::size_t per = text.find("_per_"); per != std::string::npos) text.replace(per, 5, "/");

@@ -23,6 +23,9 @@ namespace crankloop::program {
 /// "a, b, c".
 [[nodiscard]] std::string join(const std::vector<std::string>& words, const char* separator = ", ");
 
+/// "1 row is too few for a cam", "3 rows are too few for a cam".
+[[nodiscard]] std::string too_few_rows(std::size_t rows, const char* what);
+
 /// The unit of a key in readable form: "kg mm^2" for "kg_mm2", "N/mm" for "N_per_mm".
 [[nodiscard]] std::string unit_in_words(std::string_view unit);
 

@@ -12,6 +12,7 @@ namespace crankloop::program {
 namespace {
 
 constexpr std::size_t kMaxScheduleBytes = std::size_t{64} << 20;
+constexpr const char* kSigns = "; columns are separated by commas, and the decimal sign is a point";
 
 /// "fuel_kg" of "fuel_kg[2]".
 std::string without_index(const std::string& name) { return name.substr(0, name.find('[')); }
@@ -65,10 +66,13 @@ InputSchedule::Column InputSchedule::column_of(const std::string& name, int plac
 
 void InputSchedule::read_header(const std::string& text, int line, const std::vector<SceneInput>& inputs) {
   const std::vector<std::string_view> names = split(text, ',');
-  if (names[0] != "time_s") refuse(line, 1, "", "the header row begins with time_s, then come names of inputs");
+  if (names[0] != "time_s") {
+    refuse(line, 1, "", std::string("the header row begins with time_s, then come names of inputs") + kSigns);
+  }
   if (names.size() < 2) refuse(line, 1, "", "a name of an input has to follow time_s");
   std::vector<std::string> driver(inputs.size());  // the column of each input
   for (std::size_t c = 1; c < names.size(); ++c) {
+    if (names[c].empty()) refuse(line, c + 1, "", "a comma precedes it, but no name of an input stands there");
     Column column = column_of(std::string(names[c]), static_cast<int>(c) + 1, line, inputs);
     for (const std::size_t input : column.inputs) {
       if (!driver[input].empty()) {
@@ -85,9 +89,9 @@ void InputSchedule::read_header(const std::string& text, int line, const std::ve
 void InputSchedule::read_row(const std::string& text, int line) {
   const std::vector<std::string_view> cells = split(text, ',');
   if (cells.size() != columns_.size() + 1) {
-    refuse(
-        line, std::min(cells.size(), columns_.size() + 1), "",
-        "the row has " + std::to_string(cells.size()) + " columns, the header " + std::to_string(columns_.size() + 1));
+    refuse(line, std::min(cells.size(), columns_.size() + 1), "",
+           "the row has " + std::to_string(cells.size()) + (cells.size() == 1 ? " column" : " columns") +
+               ", the header " + std::to_string(columns_.size() + 1) + kSigns);
   }
   const auto number = [&](std::size_t place, const std::string& name, const Range& range) {
     const ParsedNumber parsed = parse_number(cells[place], range, "");

@@ -13,6 +13,7 @@
 #include "../../files/number.hpp"
 #include "../../files/table_file.hpp"
 #include "../../files/units.hpp"
+#include "../../files/words.hpp"
 #include "../../loops/cam_from_lift.hpp"
 
 namespace crankloop::program {
@@ -88,7 +89,7 @@ InputError explain_rows(const Wanted& wanted, const Status& refused, double scat
     line = wanted.lines[odd->row];
   switch (refused.reason) {
     case Reason::too_few_points:
-      return InputError(wanted.path, line, std::to_string(wanted.rows.size()) + " rows are too few for a lift");
+      return InputError(wanted.path, line, too_few_rows(wanted.rows.size(), "a lift"));
     case Reason::no_solution:
       return InputError(wanted.path, line, "no smooth lift comes within 1000 um of every row; check this one");
     case Reason::inconsistent:

@@ -93,6 +93,10 @@ int run_free_by(const Arguments& arguments, const EngineFile& file, const GasOrd
   request.operation.load_ratio = arguments.number("--load-ratio");
   request.operation.from_rpm = arguments.number("--from-rpm");
   request.operation.seconds = arguments.number("--seconds");
+  if (request.operation.seconds < request.operation.tick_s) {
+    throw UsageError("--seconds: " + shortest(request.operation.seconds) + " is shorter than a tick of " +
+                     shortest(arguments.number("--tick-us")) + " us");
+  }
   request.operation.gas = gas;
   request.operation.starter = arguments.has("--starter");
   if (arguments.has("--cut"))

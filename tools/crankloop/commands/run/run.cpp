@@ -169,6 +169,15 @@ std::vector<std::string> tell_accuracy(const Arguments& arguments, const EngineF
   return told;
 }
 
+/// Of one of two: a refusal says of which.
+Side side_of(const Arguments& arguments, const EngineFile& file) {
+  try {
+    return {file, figures_of_run(arguments, file)};
+  } catch (const UsageError& error) {
+    throw UsageError(file.path() + ": " + error.what());
+  }
+}
+
 /// Both engines with the same options; each at its own rated speed without --rpm.
 int run_against(const Arguments& arguments, const EngineFile& first) {
   for (const char* option : {"--free", "--csv", "--vcd", "--hash"}) {
@@ -181,7 +190,7 @@ int run_against(const Arguments& arguments, const EngineFile& first) {
   for (const EngineFile* file : {&first, &second})
     (void)tell_accuracy(arguments, *file, operation_of(arguments, *file, gas_for(arguments, *file)));
   Results results(arguments, {"--report"});
-  Side sides[] = {{first, figures_of_run(arguments, first)}, {second, figures_of_run(arguments, second)}};
+  Side sides[] = {side_of(arguments, first), side_of(arguments, second)};
   if (Output* page = results["--report"]) {
     for (Side& side : sides) side.trace = trace_of(arguments, side.file);
     page->write(report::to_html(against_page(
