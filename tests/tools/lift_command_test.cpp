@@ -284,6 +284,7 @@ TEST_F(LiftCommand, SmoothsAMeasuredCamAndTellsWhatItLeft) {
     EXPECT_NEAR(smooth[i][4], exact[i][4], 3) << exact[i][0];  // of 45 mm/rad^2
   }
   EXPECT_NE(summary_.find("smoothing_residual = "), std::string::npos) << summary_;
+  EXPECT_NE(summary_.find("table_peak = 0 deg\n"), std::string::npos) << "both flanks are equal: " << summary_;
 }
 
 TEST_F(LiftCommand, NamesTheTrainThatIsNotThere) {
@@ -328,6 +329,8 @@ TEST_F(LiftCommand, NamesTheRowOfAMeasuredCamThatIsWrong) {
   EXPECT_EQ(refusal(engine), csv + ":363: cam_deg: 180 follows 180; angles must rise from row to row");
   write("cam.csv", "cam_deg,lift_mm\n-74,0\n0,6.3\n74,0\n");
   EXPECT_EQ(refusal(engine), csv + ":4: 3 rows are too few for a cam");
+  write("cam.csv", "cam_deg,lift_mm\n0,6.3\n");
+  EXPECT_EQ(refusal(engine), csv + ":2: 1 row is too few for a cam");
   write("cam.csv", with_line(cam_rows(-180, 180), "-30,", "-30,5.2"));
   EXPECT_NE(refusal(engine).find("smoothing_um: 1"), std::string::npos) << refusal(engine);
   std::string long_table = "cam_deg,lift_mm\n";

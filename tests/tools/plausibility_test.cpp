@@ -236,10 +236,11 @@ TEST_F(Unusual, APistonIsToldBelowATenthAndAboveTenTimesTheTableOfFirstDesigns) 
   // At 95 mm and 2000 rpm `masses` has 1.08 to 2.2 kg/m^2 for each mm of bore and 70.88 cm^2: 727 to 1481 g over its
   // three kinds.
   EXPECT_TRUE(warnings(sample_.with("piston_g", "73")).empty());
-  expect_only(sample_.with("piston_g", "72"), "piston_g", "piston_g = 72 is unusual");
+  expect_only(sample_.with("piston_g", "72"), "piston_g",
+              "piston_g = 72 is unusual; usual: 73 to 15000 g for this bore");   // to two digits
   expect_only(sample_.with("piston_g", "0.81"), "piston_g", "piston_g = 0.81");  // kilograms where grams are asked for
-  EXPECT_TRUE(warnings(sample_.with("piston_g", "14800")).empty());
-  expect_only(sample_.with("piston_g", "14820"), "piston_g", "piston_g = 14820");
+  EXPECT_TRUE(warnings(sample_.with("piston_g", "14990")).empty());
+  expect_only(sample_.with("piston_g", "15010"), "piston_g", "piston_g = 15010");
 }
 
 TEST_F(Unusual, ACompressionThatNoGasFollowsIsTold) {
@@ -267,8 +268,9 @@ TEST_F(Unusual, ATraceInAnotherUnitIsTold) {
 TEST_F(Unusual, AMotoredTraceThatPeaksLongBeforeDeadCentreIsTold) {
   EXPECT_TRUE(warnings(measured(0, true)).empty());
   EXPECT_TRUE(warnings(measured(-1.5, true)).empty());
+  EXPECT_TRUE(warnings(measured(-2, true)).empty());
   expect_only(measured(-2.5, true), "file = trace.csv",
-              "the motored pressure is largest 2.5 deg before top dead centre");
+              "the motored pressure is largest 2.5 deg before top dead centre; usual: at most 2 deg");
 }
 
 TEST_F(Unusual, ATraceThatLacksRowsIsTold) {

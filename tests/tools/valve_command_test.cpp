@@ -188,6 +188,13 @@ TEST_F(ValveCommands, TheSummaryNamesEverythingWithItsUnit) {
   EXPECT_NEAR(std::stod(found.at("natural_frequency").first), 2216, 1);
 }
 
+TEST_F(ValveCommands, ACycleThatRepeatsItselfDiffersByNothing) {
+  for (const char* train : {"intake", "exhaust"}) {
+    const std::string told = run(kValve, {support::kSample, "--train", train, "--rpm", "2000"});
+    EXPECT_NE(told.find("cycle_difference = 0 um  #"), std::string::npos) << told;
+  }
+}
+
 TEST_F(ValveCommands, TheStaticRedlineIsThatOfTheTrainsForceBalance) {
   // By hand, from differences of the lift at 24.6 deg: tests/unit/spring_margin_test.cpp.
   constexpr double kStatic_rpm = 8954.39;

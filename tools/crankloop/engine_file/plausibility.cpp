@@ -38,8 +38,8 @@ constexpr double kBottomDeg = -180;
 /// Losses of heat and gas shift the motored peak to half a degree or one before dead centre; more is an error of the
 /// angles, of which 1 deg is 42 kPa of mean effective pressure in the engine of docs/gas_exchange.md.
 constexpr double kMaxPeakLeadDeg = 2;
-constexpr double kPeakSearchDeg = 40;
-constexpr double kPeakStepDeg = 0.1;
+constexpr double kPeakStepsPerDeg = 10;
+constexpr int kPeakSteps = 400;
 
 bool within(Interval usual, double value) { return value >= usual.least && value <= usual.most; }
 
@@ -288,7 +288,7 @@ void look_at_piston(const EngineFile& engine, Warnings& warnings) {
     usual_kg = {std::min(usual_kg.least, piston_kg.least), std::max(usual_kg.most, piston_kg.most)};
   }
   const SectionValues& masses = engine.section("masses");
-  warnings.add_unless({usual_kg.least * 1e3 / kMassFactor, usual_kg.most * 1e3 * kMassFactor},
+  warnings.add_unless({two_digits(usual_kg.least * 1e3 / kMassFactor), two_digits(usual_kg.most * 1e3 * kMassFactor)},
                       masses.number("piston_g"), masses.line_of("piston_g"), "piston_g", " g",
                       " for this bore; `crankloop masses` has a first guess");
 }
@@ -338,13 +338,14 @@ void look_at_diagram(const EngineFile& engine, Warnings& warnings) {
                       "", is_table ? ": are its angles right, and its pressures absolute?" : "");
 
   const double dead_centre_deg = dead_centres(d.crank).tdc_rad * kDegPerRad;
-  double peak_deg = dead_centre_deg;
-  for (double lead_deg = 0; lead_deg <= kPeakSearchDeg; lead_deg += kPeakStepDeg) {
-    if (motored_Pa(dead_centre_deg - lead_deg) > motored_Pa(peak_deg)) peak_deg = dead_centre_deg - lead_deg;
+  double peak_lead_deg = 0;
+  for (int step = 0; step <= kPeakSteps; ++step) {
+    const double lead_deg = step / kPeakStepsPerDeg;
+    if (motored_Pa(dead_centre_deg - lead_deg) > motored_Pa(dead_centre_deg - peak_lead_deg)) peak_lead_deg = lead_deg;
   }
-  if (dead_centre_deg - peak_deg <= kMaxPeakLeadDeg) return;
-  warnings.add(line, "the motored pressure is largest " + brief(dead_centre_deg - peak_deg) +
-                         " deg before top dead centre; usual: less than " + brief(kMaxPeakLeadDeg) +
+  if (peak_lead_deg <= kMaxPeakLeadDeg) return;
+  warnings.add(line, "the motored pressure is largest " + brief(peak_lead_deg) +
+                         " deg before top dead centre; usual: at most " + brief(kMaxPeakLeadDeg) +
                          " deg: are its angles right?");
 }
 

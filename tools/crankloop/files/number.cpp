@@ -97,11 +97,12 @@ double millionths(double value) {
 }
 
 std::string brief(double value) { return rounded(value, 6); }
-std::string about(double value) {
-  if (value == 0) return "0";
+double two_digits(double value) {
+  if (value == 0) return 0;
   const double digit = std::pow(10, std::floor(std::log10(std::abs(value))) - 1);
-  return brief(std::round(value / digit) * digit);
+  return std::round(value / digit) * digit;
 }
+std::string about(double value) { return brief(two_digits(value)); }
 std::string significant(double value) { return rounded(value, 12); }
 std::string significant(float value) { return rounded(static_cast<double>(value), 9); }
 

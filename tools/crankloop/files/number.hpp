@@ -38,6 +38,7 @@ struct ParsedNumber {
 [[nodiscard]] std::string brief(double value);
 
 /// Two significant digits: of what is approximate.
+[[nodiscard]] double two_digits(double value);
 [[nodiscard]] std::string about(double value);
 
 /// 12 significant digits for double and 9 for float, as in CSV files.

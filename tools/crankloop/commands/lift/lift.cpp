@@ -23,6 +23,8 @@
 namespace crankloop::program {
 namespace {
 
+constexpr double kRounding_deg = 1e-9;
+
 void write_lift(Output& out, const ShownLift& shown, double step_deg) {
   std::vector<std::string> columns{"cam_deg",         "rocker_angle_deg", "lift_mm",
                                    "lift_mm_per_rad", "lift_mm_per_rad2", "rocker_ratio"};
@@ -87,7 +89,8 @@ std::string summary(const EngineFile& engine, const ShownLift& shown, const Trai
   if (train.definition.cam.source == CamSource::table) {
     s.line("smoothing", train.definition.cam.smoothing_m * 1e6, "um", train.rows ? "chosen by auto" : "");
     s.line("smoothing_residual", lift.cam().residual_m() * 1e6, "um");
-    s.line("table_peak", lift.cam().peak_deg(), "deg");
+    const double peak_deg = lift.cam().peak_deg();
+    s.line("table_peak", std::abs(peak_deg) > kRounding_deg ? peak_deg : 0, "deg");
   }
   s.remark(flow_remark(train));
   if (!area) return s.text();

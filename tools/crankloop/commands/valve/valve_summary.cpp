@@ -12,6 +12,7 @@ namespace crankloop::program {
 namespace {
 
 constexpr double kPeriodicWithin_m = 1e-6;
+constexpr double kRounding_m = 1e-15;  // of a lift in double
 
 std::string gas_remark(const LoneValve& valve) {
   if (!(valve.valve().head_area_m2 > 0)) return "no gas force: head_area_mm2 is 0";
@@ -174,7 +175,8 @@ Summary summary_of(const LoneValve& valve, const ValveRequest& request, const Va
   s.line("events", cycle.contact_changes, "", "contact changes in the cycle");
   if ((loop.faults() & kFaultEventBudget) != 0)
     s.remark("some ticks had more contact changes than are located: take a shorter --tick-us");
-  s.line("cycle_difference", real(change_m * 1e6), "um", "of lift, largest between two consecutive cycles");
+  s.line("cycle_difference", real(change_m > kRounding_m ? change_m * 1e6 : 0), "um",
+         "of lift, largest between two consecutive cycles");
   s.line("periodic", change_m <= kPeriodicWithin_m ? "yes" : "no", "", "yes: they agree within 1 um");
   s.remark(flow_remark(valve.train()));
   if (!flow.area) return s;
