@@ -99,6 +99,8 @@ template <class Real>
 void write(CsvWriter& csv, const EngineFile& engine, const Arguments& arguments, const Point& point, Scale scale) {
   const Crank& crank = engine.definition().crank;
   const double step_deg = arguments.number("--step-deg");
+  ExactEngine exact;
+  if (const Status refused = exact.init(engine.definition()); !refused.ok()) throw engine.explain(refused);
   if (arguments.text("--method") == "table") {
     TickProbe<Real> probe(engine.definition());
     for_each_angle(step_deg, 720, [&](double deg) {
@@ -106,8 +108,6 @@ void write(CsvWriter& csv, const EngineFile& engine, const Arguments& arguments,
     });
     return;
   }
-  ExactEngine exact;
-  if (const Status refused = exact.init(engine.definition()); !refused.ok()) throw engine.explain(refused);
   for_each_angle(step_deg, 720,
                  [&](double deg) { write_row<Real>(csv, crank, deg, by_formula(exact, point, deg), scale); });
 }

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <utility>
 
 #include "../files/number.hpp"
@@ -14,12 +13,6 @@ namespace {
 
 constexpr int kShorter = 16;
 constexpr int kStarts = 16;  ///< in different parts of a tick
-
-[[nodiscard]] std::string two_digits(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.2g", value);
-  return text;
-}
 
 }  // namespace
 
@@ -53,12 +46,12 @@ std::vector<std::string> beyond_class(const LoneValve& valve, double speed_rpm, 
   if (error_m <= stepping.accuracy_m) return {};
   if (surges && deg <= keeps_deg)
     return {valve.file().path() + ": warning: at " + brief(speed_rpm) + " rpm and a tick of " + brief(tick_s * 1e6) +
-            " us the lift of train " + valve.train().name + " may be off by " + two_digits(error_m * 1e6) +
+            " us the lift of train " + valve.train().name + " may be off by " + about(error_m * 1e6) +
             " um for the surge of its springs, beyond the class of " + brief(stepping.accuracy_m * 1e6) +
             " um: a tick half as long has a quarter of that"};
   return {valve.file().path() + ": warning: at " + brief(speed_rpm) + " rpm a tick of " + brief(tick_s * 1e6) +
           " us turns the cam of train " + valve.train().name + " by " + brief(std::round(deg * 10) / 10) +
-          " cam degrees: its valve's lift may be off by " + two_digits(error_m * 1e6) + " um; it keeps the class of " +
+          " cam degrees: its valve's lift may be off by " + about(error_m * 1e6) + " um; it keeps the class of " +
           brief(stepping.accuracy_m * 1e6) + " um up to " + brief(std::floor(keeps_deg * 10) / 10) + " degrees"};
 }
 
