@@ -91,9 +91,9 @@ std::string command_line(const Arguments& arguments) {
   return text;
 }
 
-/// Whether one quantity's value undoes the other's.
-bool undoes(const Target& a, const Target& b) {
-  return a.name() == b.name() || (a.key && b.key && program::undoes(*a.key, *b.key));
+/// Whether both are names of one quantity, of which only one can have its value.
+bool are_one(const Target& a, const Target& b) {
+  return a.name() == b.name() || (a.key && b.key && undoes(*a.key, *b.key));
 }
 
 void add_axes(Study& study, const Arguments& arguments, const std::vector<const Option*>& options) {
@@ -103,7 +103,7 @@ void add_axes(Study& study, const Arguments& arguments, const std::vector<const 
     for (std::size_t a = 0; a + 1 < study.axes.size(); ++a) {
       const Target& other = study.axes[a].target;
       if (other.name() == varied.name()) throw UsageError("--vary: " + varied.name() + " is varied twice");
-      if (undoes(other, varied))
+      if (are_one(other, varied))
         throw UsageError("--vary: " + other.name() + " and " + varied.name() + " are one quantity; vary one of them");
     }
     for (const Constant& constant : study.options) {
@@ -112,7 +112,7 @@ void add_axes(Study& study, const Arguments& arguments, const std::vector<const 
     }
     // A key may be in both: --set then makes the file of the engine whole.
     for (const Setting& setting : study.settings) {
-      if (varied.key && setting.place.key != varied.key->key && undoes({setting.place}, varied))
+      if (varied.key && setting.place.key != varied.key->key && are_one({setting.place}, varied))
         throw UsageError("--set: " + setting.place.text() + " and the varied " + varied.name() +
                          " are one quantity; give one of them");
     }
@@ -221,7 +221,7 @@ void add_constants(Study& study, const Arguments& arguments, const std::vector<c
   for (const std::string& one : arguments.words("--set")) {
     const Constant constant = parse_constant(one, study.file, options);
     for (const Target& other : set) {
-      if (undoes(other, constant.target))
+      if (are_one(other, constant.target))
         throw UsageError("--set: " + other.name() + " and " + constant.target.name() + " are one quantity; give one");
     }
     set.push_back(constant.target);
