@@ -308,7 +308,7 @@ TEST_F(StudyCommand, RefusesByName) {
       {{"--vary", "cam.exponents.2=8,10", "cam.exponents=2,8,18,26/2,12,18,26", "--of", "valve.max_lift"},
        "cam.intake.exponents.2 and cam.intake.exponents are one quantity"},
       {{"--vary", "rpm=1,2", "--of", "valve.max_lift", "--set", "crank.stroke_mm=57", "crank.stroke_mm=30"},
-       "crank.stroke_mm and crank.stroke_mm are one quantity"},
+       "crank.stroke_mm is set twice"},
       {{"--vary", "crank.rod_ratio=0.25,0.3", "--of", "valve.max_lift", "--set", "crank.rod_length_mm=150"},
        "crank.rod_length_mm and the varied crank.rod_ratio are one quantity"},
       {{"--vary", "rpm=1,2", "cycles=1,2", "tick-us=10,20", "--of", "valve.max_lift"}, "at most two"},

@@ -96,9 +96,9 @@ std::string remark_on_walls(const Walls& walls, const GasFigures& figures) {
   const std::string now = "of a cylinder's walls, at the end";
   if (!(walls.to_coolant_W_K > 0)) return now + "; they give no heat to the coolant: wall_W_per_K is 0";
   const double end_K = walls.coolant_K + figures.wall_heat_W / walls.to_coolant_W_K;
-  if (std::abs(end_K - figures.wall_K) <= kSettled_K) return now;
+  if (std::abs(end_K - figures.wall_K) <= kSettled_K || !(figures.wall_heat_W > 0)) return now;
   return now + "; at this heat they settle near " + brief(std::round(end_K)) +
-         " K within minutes: for a warm engine set wall_C = " + brief(std::round(end_K - 273.15));
+         " K: for a warm engine set wall_C = " + brief(std::round(end_K - 273.15));
 }
 
 void add_gas(Summary& s, const EngineDefinition& engine, const GasFigures& figures) {

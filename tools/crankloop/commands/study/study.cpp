@@ -221,6 +221,7 @@ void add_constants(Study& study, const Arguments& arguments, const std::vector<c
   for (const std::string& one : arguments.words("--set")) {
     const Constant constant = parse_constant(one, study.file, options);
     for (const Target& other : set) {
+      if (other.name() == constant.target.name()) throw UsageError("--set: " + other.name() + " is set twice");
       if (are_one(other, constant.target))
         throw UsageError("--set: " + other.name() + " and " + constant.target.name() + " are one quantity; give one");
     }
