@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "../files/number.hpp"
 #include "../files/table_file.hpp"
 #include "../files/text_file.hpp"
 #include "../files/words.hpp"
@@ -172,10 +173,8 @@ namespace {
 
 /// Not less than the value.
 std::string three_digits_up(double value) {
-  double digit = 1;  // not by pow(), which would make an FMU require a newer glibc
-  while (digit * 1000 <= value) digit *= 10;
-  while (digit > 1e-30 && digit * 100 > value) digit /= 10;
-  return brief(std::ceil(value / digit) * digit);
+  const double place = last_place(value, 3);
+  return brief(std::ceil(value / place) * place);
 }
 
 /// "-30 deg (cam.csv:152)"

@@ -97,11 +97,22 @@ double millionths(double value) {
 }
 
 std::string brief(double value) { return rounded(value, 6); }
-double two_digits(double value) {
-  if (value == 0) return 0;
-  const double digit = std::pow(10, std::floor(std::log10(std::abs(value))) - 1);
-  return std::round(value / digit) * digit;
+
+double last_place(double value, int digits) {
+  double least = 1;
+  for (int digit = 1; digit < digits; ++digit) least *= 10;
+  const double size = std::abs(value);
+  double place = 1;  // not by pow(), which would make an FMU require a newer glibc
+  while (place < 1e290 && place * least * 10 <= size) place *= 10;
+  while (place > 1e-290 && place * least > size) place /= 10;
+  return place;
 }
+
+double two_digits(double value) {
+  const double place = last_place(value, 2);
+  return std::round(value / place) * place;
+}
+
 std::string about(double value) { return brief(two_digits(value)); }
 std::string significant(double value) { return rounded(value, 12); }
 std::string significant(float value) { return rounded(static_cast<double>(value), 9); }

@@ -37,6 +37,9 @@ struct ParsedNumber {
 /// 6 significant digits: for messages with a computed number.
 [[nodiscard]] std::string brief(double value);
 
+/// The place of the last of so many significant digits: 0.01 for 1.234 and 3.
+[[nodiscard]] double last_place(double value, int digits);
+
 /// Two significant digits: of what is approximate.
 [[nodiscard]] double two_digits(double value);
 [[nodiscard]] std::string about(double value);

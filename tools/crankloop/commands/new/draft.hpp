@@ -20,9 +20,8 @@ namespace crankloop::program {
 
 /// What an assumption is rounded to.
 [[nodiscard]] inline double to_three_digits(double value) {
-  if (value == 0) return 0;
-  const double digit = std::pow(10, std::floor(std::log10(std::abs(value))) - 2);
-  return parse_number(brief(std::round(value / digit) * digit)).value;
+  const double place = last_place(value, 3);
+  return parse_number(brief(std::round(value / place) * place)).value;
 }
 
 /// Writes the file: each line states the source of its value.
