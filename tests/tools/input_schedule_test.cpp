@@ -165,6 +165,25 @@ TEST_F(Inputs, KeepTheBooksOfEnergy) {
   EXPECT_NE(summary.find("inputs_from_file = load_ratio, cut_cylinders, external_torque_Nm\n"), std::string::npos);
 }
 
+TEST_F(Inputs, OfTheFileHaveNoValueInTheSummary) {
+  const std::string engine = CRANKLOOP_SOURCE_DIR "/tools/engines/four_2000.ini";
+  const auto told = [&](const std::string& rows) {
+    const std::string summary =
+        run({engine, "--free", "--from-rpm", "1000", "--seconds", "0.01", "--inputs", file(rows)});
+    std::string lines;
+    for (const std::string name : {"throttle", "lambda", "fuel", "burn_start"})
+      if (summary.find("\n" + name + " = ") != std::string::npos) lines += name + " ";
+    return lines;
+  };
+  EXPECT_EQ(told("time_s,starter\n0,0\n"), "throttle lambda burn_start ");
+  EXPECT_EQ(told("time_s,throttle_ratio\n0,0.2\n"), "lambda burn_start ");
+  EXPECT_EQ(told("time_s,excess_air_ratio,burn_start_deg\n0,1,-9\n"), "throttle ");
+  EXPECT_EQ(told("time_s,burn_start_deg[3]\n0,-9\n"), "throttle lambda burn_start ") << "of the other cylinders";
+  const std::string one = run(
+      {kSample, "--free", "--from-rpm", "1000", "--seconds", "0.01", "--inputs", file("time_s,load_ratio\n0,0.5\n")});
+  EXPECT_EQ(one.find("\nload_ratio = "), std::string::npos) << one;
+}
+
 TEST_F(Inputs, AWarningNamesAColumnThatAnotherInputOverrides) {
   const auto told = [this](const std::string& text, double excess_air_ratio) {
     return warnings_about_inputs(InputSchedule(file(text), breathing()), excess_air_ratio);

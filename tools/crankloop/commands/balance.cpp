@@ -39,7 +39,7 @@ double without_rounding(double amplitude, double rounding) { return amplitude > 
 
 /// Masses alone do no work in a cycle, so nothing is left of it but rounding, of which no efficiency can be made.
 void drop_rounding(CycleSummary& cycle, double rounding_Nm, double displacement_m3) {
-  if (std::abs(cycle.gross_mep_Pa) * displacement_m3 <= rounding_Nm * 4 * kPi) cycle.gross_mep_Pa = 0;
+  if (std::abs(cycle.gross_mep_Pa) * displacement_m3 <= rounding_Nm * kCycle_rad) cycle.gross_mep_Pa = 0;
   if (std::abs(cycle.mean_torque_Nm) > rounding_Nm) return;
   cycle.mean_torque_Nm = cycle.net_mep_Pa = cycle.power_W = 0;
   cycle.brake.efficiency_ratio = 0;

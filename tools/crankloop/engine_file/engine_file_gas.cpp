@@ -2,12 +2,11 @@
 #include <cstddef>
 #include <vector>
 
+#include "../files/units.hpp"
 #include "engine_file_parts.hpp"
 
 namespace crankloop::program {
 namespace {
-
-constexpr double kCelsiusInKelvin = 273.15;
 
 /// Copies the rows of a curve: increasing from 0, at most as many as there is room for.
 int fill_rows(const SectionValues& values, const char* key, double last, const std::string& path,
@@ -50,12 +49,12 @@ Runner build_runner(const SectionValues& values, const std::string& side, const 
 Gas build_gas(const SectionValues& values, const std::string& path) {
   Gas gas;
   fill(values, gas);
-  gas.ambient_K = values.number("ambient_C") + kCelsiusInKelvin;
-  gas.exhaust_K = values.number("exhaust_C") + kCelsiusInKelvin;
-  gas.wall_K = values.number("wall_C") + kCelsiusInKelvin;
+  gas.ambient_K = values.number("ambient_C") + kZeroCelsius_K;
+  gas.exhaust_K = values.number("exhaust_C") + kZeroCelsius_K;
+  gas.wall_K = values.number("wall_C") + kZeroCelsius_K;
   gas.intake_runner = build_runner(values, "intake", path), gas.exhaust_runner = build_runner(values, "exhaust", path);
-  gas.walls.coolant_K = values.number("coolant_C") + kCelsiusInKelvin;
-  if (values.has("manifold_C")) gas.walls.manifold_K = values.number("manifold_C") + kCelsiusInKelvin;
+  gas.walls.coolant_K = values.number("coolant_C") + kZeroCelsius_K;
+  if (values.has("manifold_C")) gas.walls.manifold_K = values.number("manifold_C") + kZeroCelsius_K;
   gas.charge_burn.in_use = values.text("burn_by") == "charge";
   gas.throttle_count = fill_rows(values, "throttle_curve", 1, path, gas.throttle_ratio, gas.throttle_area_ratio);
   if (gas.throttle_ratio[gas.throttle_count - 1] != 1) refuse(values, "throttle_curve", "must end at 1", path);

@@ -225,7 +225,6 @@ void look_at_measured_cams(const EngineFile& engine, const EngineSize& size, War
 constexpr Interval kLambdaWithSpark{0.7, 2};
 constexpr double kAirConstant = 287.1;  ///< J/(kg K)
 constexpr double kFilling = 0.9;        ///< volumetric efficiency at an open throttle
-constexpr double kZeroCelsius_K = 273.15;
 
 /// Warns about an unusual lambda, given or in a full cylinder. Not for a diesel, whose fuel burns by two Wiebe
 /// functions: it has more air.

@@ -52,10 +52,10 @@ void add_fuel(Summary& s, const GasOrder& order) {
   }
 }
 
-void add_order(Summary& s, const GasOrder& order) {
-  s.line("throttle", order.throttle_ratio);
-  add_fuel(s, order);
-  s.line("burn_start", order.burn_start_deg, "deg");
+void add_order(Summary& s, const GasOrder& order, const std::function<bool(const char*)>& is_given) {
+  if (is_given("throttle_ratio")) s.line("throttle", order.throttle_ratio);
+  if (is_given("excess_air_ratio") && (order.excess_air_ratio > 0 || is_given("fuel_kg"))) add_fuel(s, order);
+  if (is_given("burn_start_deg")) s.line("burn_start", order.burn_start_deg, "deg");
 }
 
 double fuel_kg_s(const EngineDefinition& engine, const GasFigures& figures, double speed_rad_s) noexcept {
@@ -98,7 +98,7 @@ std::string remark_on_walls(const Walls& walls, const GasFigures& figures) {
   const double end_K = walls.coolant_K + figures.wall_heat_W / walls.to_coolant_W_K;
   if (std::abs(end_K - figures.wall_K) <= kSettled_K || !(figures.wall_heat_W > 0)) return now;
   return now + "; at this heat they settle near " + brief(std::round(end_K)) +
-         " K: for a warm engine set wall_C = " + brief(std::round(end_K - 273.15));
+         " K: for a warm engine set wall_C = " + brief(std::round(end_K - kZeroCelsius_K));
 }
 
 void add_gas(Summary& s, const EngineDefinition& engine, const GasFigures& figures) {

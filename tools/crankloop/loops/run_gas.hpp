@@ -6,6 +6,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,7 @@
 #include "../engine_file/engine_file.hpp"
 #include "../engine_file/gas_order.hpp"
 #include "../files/csv.hpp"
+#include "../files/units.hpp"
 #include "run_quantities.hpp"
 
 namespace crankloop::program {
@@ -124,8 +126,6 @@ template <class Real, std::size_t Capacity>
 /// beside the residual, whatever the kind of combustion chamber (Heywood, section 9.4).
 inline constexpr double kMaxResidualThatBurns = 0.4;
 
-inline constexpr double kCycle_rad = 12.566370614359172;
-
 /// Results of the gas in a run.
 struct GasFigures {
   GasCycle<double> cycle{};  ///< mean_cycle at the end
@@ -165,8 +165,8 @@ void take_cycles(const crankloop::Output<Real, S>& out, std::size_t cylinders, d
 
 /// The line of a summary with the requested fuel: fuel, or lambda.
 void add_fuel(Summary& s, const GasOrder& order);
-/// The lines that show the engine's inputs: throttle, fuel or lambda, burn_start.
-void add_order(Summary& s, const GasOrder& order);
+/// The lines that show the engine's inputs, throttle, fuel or lambda, burn_start: those that have one value.
+void add_order(Summary& s, const GasOrder& order, const std::function<bool(const char*)>& is_given);
 
 /// Fuel of all cylinders, at this speed.
 [[nodiscard]] double fuel_kg_s(const EngineDefinition& engine, const GasFigures& figures, double speed_rad_s) noexcept;

@@ -7,6 +7,7 @@
 
 #include "../../command_line/shards.hpp"
 #include "../../files/number.hpp"
+#include "../../files/units.hpp"
 #include "../../files/words.hpp"
 #include "../../loops/run_loop.hpp"
 
@@ -149,9 +150,9 @@ std::vector<std::string> EngineMap::doubts() const {
                      (request.best_spark ? "before it reaches this torque." : "and would burn later."));
   }
   if (const Gas& gas = file.definition().gas; gas.walls.capacity_J_K > 0) {
-    doubts.push_back(
-        "A point lasts some cycles, so its walls are still near wall_C = " + brief(std::round(gas.wall_K - 273.15)) +
-        ": `crankloop run` at a point says where they settle (wall_temperature).");
+    doubts.push_back("A point lasts some cycles, so its walls are still near wall_C = " +
+                     brief(std::round(gas.wall_K - kZeroCelsius_K)) +
+                     ": `crankloop run` at a point says where they settle (wall_temperature).");
   }
   return doubts;
 }

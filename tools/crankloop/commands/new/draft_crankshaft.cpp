@@ -76,7 +76,7 @@ void add_what_turns_it(Draft& draft, const IndicatorDiagram& diagram, Numbers& n
   Friction friction = usual_friction(diagram.peak_Pa() / 1e3, n.stroke_mm);
   friction = {to_three_digits(friction.constant_kPa), to_three_digits(friction.linear_kPa_per_1000rpm),
               to_three_digits(friction.quadratic_kPa_per_1000rpm2)};
-  n.brake_Nm = std::max(n.net_mep_kPa - friction.at_kPa(krpm), 0.0) * n.displacement_L / (4 * kPi);
+  n.brake_Nm = std::max(n.net_mep_kPa - friction.at_kPa(krpm), 0.0) * n.displacement_L / kCycle_rad;
   draft.section("friction");
   draft.assume("constant_kPa", friction.constant_kPa,
                "Chen and Flynn (SAE 650733), without pumping; " + brief(to_three_digits(diagram.peak_Pa() / 1e5)) +

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "../../files/units.hpp"
 #include "../../loops/harmonics.hpp"
 
 namespace crankloop::program {

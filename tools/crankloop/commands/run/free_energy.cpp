@@ -67,7 +67,7 @@ double GasWork::until_J(double angle_deg) const {
 
 double GasWork::backwards_Nm() const {
   const double cycle_J = until_J(720) - until_J(0);
-  return cycle_J < 0 ? -2 * cycle_J / (4 * kPi) : 0;
+  return cycle_J < 0 ? -2 * cycle_J / kCycle_rad : 0;
 }
 
 EnergyBooks::EnergyBooks(const ExactEngine& exact, const FreeOperation& operation, const FreeState& begin)

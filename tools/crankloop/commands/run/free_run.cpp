@@ -196,11 +196,12 @@ std::string summary_text(const EngineFile& file, const FreeRequest& request, con
   s.line("ticks", f.ticks);
   if (operation.schedule) {
     s.line("inputs_from_file", operation.schedule->columns());
-    s.remark("inputs below are those of the command line, where the file does not have them");
   }
+  // An input with a column of its own has no one value to tell.
+  const auto is_given = [&](const char* input) { return !operation.schedule || !operation.schedule->drives(input); };
   if (breathes(file.definition())) {
-    add_order(s, operation.gas);
-  } else {
+    add_order(s, operation.gas, is_given);
+  } else if (is_given("load_ratio")) {
     s.line("load_ratio", operation.load_ratio);
   }
   s.line("turned", f.end.angle_deg / 360, "rev");

@@ -66,7 +66,7 @@ Summary summary_of(const HeldEngine& engine, const HeldRequest& request, const R
   s.remark("max_ and min_ are over the ticks, every " + brief(f.deg_per_tick) + " deg");
   s.line("speed", request.operation.speed_rpm, "rpm");
   if (engine.breathes()) {
-    add_order(s, request.operation.gas);
+    add_order(s, request.operation.gas, [](const char*) { return true; });
   } else if (engine.has_gas()) {
     s.line("load_ratio", request.operation.load_ratio);
   }
