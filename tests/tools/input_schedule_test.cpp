@@ -179,6 +179,7 @@ TEST_F(Inputs, OfTheFileHaveNoValueInTheSummary) {
   EXPECT_EQ(told("time_s,throttle_ratio\n0,0.2\n"), "lambda burn_start ");
   EXPECT_EQ(told("time_s,excess_air_ratio,burn_start_deg\n0,1,-9\n"), "throttle ");
   EXPECT_EQ(told("time_s,burn_start_deg[3]\n0,-9\n"), "throttle lambda burn_start ") << "of the other cylinders";
+  EXPECT_EQ(told("time_s,spark_advance_deg,by_spark_advance\n0,20,1\n"), "throttle lambda ") << "the spark sets it";
   const std::string one = run(
       {kSample, "--free", "--from-rpm", "1000", "--seconds", "0.01", "--inputs", file("time_s,load_ratio\n0,0.5\n")});
   EXPECT_EQ(one.find("\nload_ratio = "), std::string::npos) << one;

@@ -55,7 +55,7 @@ void add_fuel(Summary& s, const GasOrder& order) {
 void add_order(Summary& s, const GasOrder& order, const std::function<bool(const char*)>& is_given) {
   if (is_given("throttle_ratio")) s.line("throttle", order.throttle_ratio);
   if (is_given("excess_air_ratio") && (order.excess_air_ratio > 0 || is_given("fuel_kg"))) add_fuel(s, order);
-  if (is_given("burn_start_deg")) s.line("burn_start", order.burn_start_deg, "deg");
+  if (is_given("burn_start_deg") && is_given("by_spark_advance")) s.line("burn_start", order.burn_start_deg, "deg");
 }
 
 double fuel_kg_s(const EngineDefinition& engine, const GasFigures& figures, double speed_rad_s) noexcept {

@@ -194,9 +194,7 @@ std::string summary_text(const EngineFile& file, const FreeRequest& request, con
   s.line("tick", operation.tick_s * 1e6, "us");
   s.line("time", f.end.time_s, "s");
   s.line("ticks", f.ticks);
-  if (operation.schedule) {
-    s.line("inputs_from_file", operation.schedule->columns());
-  }
+  if (operation.schedule) s.line("inputs_from_file", operation.schedule->columns());
   // An input with a column of its own has no one value to tell.
   const auto is_given = [&](const char* input) { return !operation.schedule || !operation.schedule->drives(input); };
   if (breathes(file.definition())) {
