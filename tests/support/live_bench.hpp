@@ -42,6 +42,7 @@ class Process {
     id_ = ::fork();
     if (id_ != 0) return;
     ::prctl(PR_SET_PDEATHSIG, SIGKILL);  // a test that is killed leaves nothing running
+    ::signal(SIGHUP, SIG_DFL);           // ignored where the tests run under nohup, and the program would leave it so
     if (std::freopen(output_path_.c_str(), "w", stdout) == nullptr || ::dup2(STDOUT_FILENO, STDERR_FILENO) < 0)
       ::_exit(126);
     ::execv(arguments[0], arguments.data());
