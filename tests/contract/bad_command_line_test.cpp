@@ -282,7 +282,7 @@ TEST_F(Output, AppearsWhole) {
   const Answer answer = run({"kinematics", kSample, "--rpm", "2000"});
   EXPECT_EQ(answer.status, 0);
   const std::string summary = run({"kinematics", kSample, "--rpm", "2000", "--csv", folder_ / "k.csv"}).out;
-  EXPECT_NE(summary.find("acceleration_max = "), std::string::npos) << summary;
+  EXPECT_NE(summary.find("max_acceleration = "), std::string::npos) << summary;
   EXPECT_EQ(contents(folder_ / "k.csv"), answer.out);
   EXPECT_EQ(files(), (std::vector<std::string>{"k.csv", "stderr", "stdout"}));
 }

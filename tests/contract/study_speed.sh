@@ -16,7 +16,7 @@ busy() {
 # study THREADS: the nanoseconds it takes.
 study() {
   start=$(date +%s%N)
-  "$crankloop" study "$engine" --vary crank.rod_length_mm=90:120:40 rpm=5000:9000:25 --of kinematics.acceleration_max \
+  "$crankloop" study "$engine" --vary crank.rod_length_mm=90:120:40 rpm=5000:9000:25 --of kinematics.max_acceleration \
     --threads "$1" --csv "$1.csv" >/dev/null 2>"$1.err"
   echo $(($(date +%s%N) - start))
 }

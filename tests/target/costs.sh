@@ -104,7 +104,7 @@ print_costs() {
   echo "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |"
   for engine in $engines; do row "$engine"; done
   if [ -n "$cycles_of" ]; then
-    cycle_table 0 2 "by tests/target/worst_tick/costs.hpp, from the core's manual; mean and worst of the dearest of the three speeds."
+    cycle_table 0 2 "by tests/target/worst_tick/costs.hpp, from the core's manual; mean and worst of the most expensive of the three speeds."
     cycle_table 5 4 "code and tables in a flash that reads 32 bits at a time, without cache and prefetch. Most boards are faster."
   fi
 }

@@ -94,15 +94,15 @@ TEST_F(KinematicsCommand, TellsWhereTheMotionHasItsExtremes) {
             deg);
         rod.take(std::asin(lambda * (std::sin(a) - offset_m / kRadius_m)) * 180 / kPi, deg);
       }
-      EXPECT_NEAR(found.at("velocity_max"), velocity.most, 1e-5 * velocity.most);
-      EXPECT_NEAR(found.at("velocity_max_at"), velocity.most_deg, 0.2);
-      EXPECT_NEAR(found.at("velocity_min"), velocity.least, 1e-5 * velocity.most);
-      EXPECT_NEAR(found.at("velocity_min_at"), velocity.least_deg, 0.2);
-      EXPECT_NEAR(found.at("acceleration_max"), acceleration.most, 1e-4 * acceleration.most);
-      EXPECT_NEAR(std::remainder(found.at("acceleration_max_at") - acceleration.most_deg, 360), 0, 0.5);
-      EXPECT_NEAR(found.at("acceleration_min"), acceleration.least, 1e-4 * acceleration.most);
-      EXPECT_NEAR(found.at("rod_angle_max"), rod.most, 1e-4);
-      EXPECT_NEAR(found.at("rod_angle_max_at"), rod.most_deg, 0.02);
+      EXPECT_NEAR(found.at("max_velocity"), velocity.most, 1e-5 * velocity.most);
+      EXPECT_NEAR(found.at("max_velocity_at"), velocity.most_deg, 0.2);
+      EXPECT_NEAR(found.at("min_velocity"), velocity.least, 1e-5 * velocity.most);
+      EXPECT_NEAR(found.at("min_velocity_at"), velocity.least_deg, 0.2);
+      EXPECT_NEAR(found.at("max_acceleration"), acceleration.most, 1e-4 * acceleration.most);
+      EXPECT_NEAR(std::remainder(found.at("max_acceleration_at") - acceleration.most_deg, 360), 0, 0.5);
+      EXPECT_NEAR(found.at("min_acceleration"), acceleration.least, 1e-4 * acceleration.most);
+      EXPECT_NEAR(found.at("max_rod_angle"), rod.most, 1e-4);
+      EXPECT_NEAR(found.at("max_rod_angle_at"), rod.most_deg, 0.02);
       EXPECT_NEAR(found.at("r_w"), kRadius_m * kSpeed_rad_s, 1e-4);
       EXPECT_NEAR(found.at("r_w2"), kRadius_m * kSpeed_rad_s * kSpeed_rad_s, 1e-2);
     }
@@ -133,15 +133,15 @@ TEST_F(KinematicsCommand, TellsAllExtremesOfTheAccelerationOfAShortRod) {
   const double lambda = 0.3, rw2 = kRadius_m * kSpeed_rad_s * kSpeed_rad_s;
   std::map<std::string, double> found = summary(engine_text(lambda, 0), {"--method", "approx"});
   const double at_deg = std::acos(-1 / (4 * lambda)) * 180 / kPi;
-  EXPECT_NEAR(found.at("acceleration_max"), rw2 * (1 + lambda), 1e-5 * rw2);
+  EXPECT_NEAR(found.at("max_acceleration"), rw2 * (1 + lambda), 1e-5 * rw2);
   EXPECT_NEAR(found.at("acceleration_extreme_1"), -rw2 * (1 - lambda), 1e-5 * rw2);
   EXPECT_NEAR(found.at("acceleration_extreme_1_at"), 180, 1e-3);
-  EXPECT_NEAR(found.at("acceleration_min"), -rw2 * (lambda + 1 / (8 * lambda)), 1e-5 * rw2);
-  EXPECT_NEAR(found.at("acceleration_min_at"), at_deg, 1e-2);
+  EXPECT_NEAR(found.at("min_acceleration"), -rw2 * (lambda + 1 / (8 * lambda)), 1e-5 * rw2);
+  EXPECT_NEAR(found.at("min_acceleration_at"), at_deg, 1e-2);
   EXPECT_NEAR(found.at("acceleration_extreme_2_at"), 360 - at_deg, 1e-2);
   found = summary(engine_text(lambda, 0));
   EXPECT_NEAR(found.at("acceleration_extreme_1"), -rw2 * (1 - lambda), 1e-5 * rw2) << "exact, too";
-  EXPECT_LT(found.at("acceleration_min"), found.at("acceleration_extreme_1"));
+  EXPECT_LT(found.at("min_acceleration"), found.at("acceleration_extreme_1"));
   EXPECT_EQ(summary(engine_text(0.24, 0)).count("acceleration_extreme_1"), 0u) << "a longer rod has no more than two";
 }
 

@@ -95,7 +95,7 @@ class StudyCommand : public RunCommand {
   /// A small study: 12 points of cheap commands, with gaps.
   [[nodiscard]] static Words small() {
     return {k125,    "--vary",         "cam.intake.max_lift_mm=5:60:4", "rpm=5000:9000:3",
-            "--of",  "valve.max_lift", "valve.separation_start",        "kinematics.velocity_max",
+            "--of",  "valve.max_lift", "valve.separation_start",        "kinematics.max_velocity",
             "--set", "cycles=2"};
   }
   [[nodiscard]] std::string part(int number, int count, const Words& study = small()) const {
@@ -119,7 +119,7 @@ TEST_F(StudyCommand, HasWhatEachCommandPrintsOfAFileWithThatValue) {
     const Rows rows(printed_by(
         kStudy, {k125, "--vary", std::string(one.key) + "=" + one.values, "--of", "valve.max_lift",
                  "valve.max_acceleration", "redline.static_redline", "run.mean_torque", "run.max_crank_pin_load",
-                 "balance.free_force_first_N", "kinematics.acceleration_min", "--set", "from=8560", "to=8566"}));
+                 "balance.free_force_first_N", "kinematics.min_acceleration", "--set", "from=8560", "to=8566"}));
     ASSERT_EQ(rows.count(), 2u);
     for (std::size_t row = 0; row < 2; ++row) {
       const std::string file = edited(one.name, shortest(one.numbers[row]));
@@ -133,7 +133,7 @@ TEST_F(StudyCommand, HasWhatEachCommandPrintsOfAFileWithThatValue) {
       same("redline.static_redline_rpm", kRedline, "static_redline", {"--from", "8560", "--to", "8566"});
       same("run.mean_torque_Nm", kRun, "mean_torque", {});
       same("run.max_crank_pin_load_N", kRun, "max_crank_pin_load", {});
-      same("kinematics.acceleration_min_m_s2", kKinematics, "acceleration_min", {"--csv", path("k.csv")});
+      same("kinematics.min_acceleration_m_s2", kKinematics, "min_acceleration", {"--csv", path("k.csv")});
       const std::string balance = printed_by(kBalance, {file});
       EXPECT_NE(balance.find("free_force_first_N," + rows.cell(row, "balance.free_force_first_N") + "\n"),
                 std::string::npos);
@@ -159,13 +159,13 @@ TEST_F(StudyCommand, VariesOptionsAndPassesThemToTheCommandsThatHaveThem) {
 /// A centric crank's largest acceleration is r w^2 (1 + lambda), at the top dead centre.
 TEST_F(StudyCommand, LetsTheRodFollowLambda) {
   const Rows rows(printed_by(kStudy, {k125, "--vary", "crank.rod_ratio=0.2:0.35:7", "--of",
-                                      "kinematics.acceleration_max", "kinematics.lambda", "--set", "rpm=6000"}));
+                                      "kinematics.max_acceleration", "kinematics.lambda", "--set", "rpm=6000"}));
   ASSERT_EQ(rows.count(), 7u);
   const double w = 6000 * support::kPi / 30;
   for (std::size_t row = 0; row < 7; ++row) {
     const double lambda = rows.number(row, "crank.rod_ratio");
     EXPECT_NEAR(rows.number(row, "kinematics.lambda"), lambda, 1e-12);
-    EXPECT_NEAR(rows.number(row, "kinematics.acceleration_max_m_s2"), 28.9e-3 * w * w * (1 + lambda), 1e-6);
+    EXPECT_NEAR(rows.number(row, "kinematics.max_acceleration_m_s2"), 28.9e-3 * w * w * (1 + lambda), 1e-6);
   }
 }
 
@@ -205,7 +205,7 @@ TEST_F(StudyCommand, LeavesAGapWithItsReasonWhereAPointIsRefused) {
   EXPECT_EQ(rows.cell(0, "valve.separation_start_deg"), "");
   EXPECT_EQ(rows.cell(0, "refused"), "valve.separation_start is none");
   EXPECT_EQ(rows.cell(11, "valve.max_lift_mm"), "");
-  EXPECT_NE(rows.cell(11, "kinematics.velocity_max_m_s"), "") << "one command's refusal is not another's";
+  EXPECT_NE(rows.cell(11, "kinematics.max_velocity_m_s"), "") << "one command's refusal is not another's";
   EXPECT_NE(rows.line(11).find("the cam is undercut"), std::string::npos) << rows.line(11);
 }
 
@@ -259,7 +259,7 @@ TEST_F(StudyCommand, RefusesPartsThatAreNotOneWholeStudyByName) {
 
 TEST_F(StudyCommand, TellsPartsOfAnotherEngineFromItsOwn) {
   const std::string file = path("engine.ini");
-  const auto words = [&] { return Words{file, "--vary", "rpm=1000:2000:2", "--of", "kinematics.velocity_max"}; };
+  const auto words = [&] { return Words{file, "--vary", "rpm=1000:2000:2", "--of", "kinematics.max_velocity"}; };
   std::ofstream(file) << contents(k125);
   const std::string one = part(1, 2, words()), two = part(2, 2, words());
   std::ofstream(file) << contents(k125) << "# another remark\n";
@@ -334,13 +334,13 @@ TEST_F(StudyCommand, RefusesByName) {
     EXPECT_NE(told.find(one.why), std::string::npos) << one.why << " is not in: " << told;
   }
   const std::string which =
-      refusal_of(kStudy, {kFour, "--vary", "cam.max_lift_mm=5:6:2", "--of", "kinematics.velocity_max"});
+      refusal_of(kStudy, {kFour, "--vary", "cam.max_lift_mm=5:6:2", "--of", "kinematics.max_velocity"});
   EXPECT_NE(which.find("could be any of cam.intake.max_lift_mm, cam.exhaust.max_lift_mm"), std::string::npos) << which;
 }
 
 TEST_F(StudyCommand, DrawsCurvesWithTheFilesOwnValueOverOneKeyHeatMapsOverTwoAndACurvePerValueWhereTheyAreFew) {
-  printed_by(kStudy, {k125, "--vary", "crank.rod_length_mm=90:120:4", "--of", "kinematics.velocity_max",
-                      "kinematics.acceleration_max", "--report", path("one.html"), "--plot", path("one.svg")});
+  printed_by(kStudy, {k125, "--vary", "crank.rod_length_mm=90:120:4", "--of", "kinematics.max_velocity",
+                      "kinematics.max_acceleration", "--report", path("one.html"), "--plot", path("one.svg")});
   const support::Markup one = support::read(contents(path("one.html")));
   EXPECT_EQ(one.fault, "");
   EXPECT_EQ(one.all("svg").size(), 2u);
@@ -348,7 +348,7 @@ TEST_F(StudyCommand, DrawsCurvesWithTheFilesOwnValueOverOneKeyHeatMapsOverTwoAnd
   EXPECT_EQ(support::read(contents(path("one.svg"))).fault, "");
 
   printed_by(kStudy, {k125, "--vary", "crank.rod_length_mm=90:120:6", "crank.pin_offset_mm=0:2:5", "--of",
-                      "kinematics.velocity_max", "--report", path("two.html")});
+                      "kinematics.max_velocity", "--report", path("two.html")});
   const support::Markup two = support::read(contents(path("two.html")));
   EXPECT_EQ(two.fault, "");
   std::size_t fields = 0;
@@ -361,7 +361,7 @@ TEST_F(StudyCommand, DrawsCurvesWithTheFilesOwnValueOverOneKeyHeatMapsOverTwoAnd
   EXPECT_EQ(fields, 1u);
 
   printed_by(kStudy, {k125, "--vary", "crank.pin_offset_mm=0,1", "crank.rod_length_mm=90:120:6", "--of",
-                      "kinematics.velocity_max", "--report", path("few.html")});
+                      "kinematics.max_velocity", "--report", path("few.html")});
   const support::Markup few = support::read(contents(path("few.html")));
   EXPECT_TRUE(few.of_class("heat").empty());
   std::vector<std::string> curves;

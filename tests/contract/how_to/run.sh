@@ -4,7 +4,7 @@ set -eu
 crankloop=$1 folder=$2
 fail() { echo "docs/how_to.md: $*" >&2 && exit 1; }
 
-for program in tick_length edges vvt many snapshot; do ./$program || fail "$program failed"; done
+for program in tick_length crank edges vvt own_main many snapshot; do ./$program || fail "$program failed"; done
 ./faults >faults.txt || fail "faults failed"
 printf 'not ready\nspeed, load ratio\n' | cmp - faults.txt || fail "faults does not say what its comments do"
 

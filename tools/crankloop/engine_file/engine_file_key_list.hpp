@@ -90,7 +90,7 @@ inline constexpr SectionKind kSections[] = {
 inline constexpr Key kRows[] = {
     {"engine", "name", Kind::text, kNoUnit, "", kAny, "", required, "", "", "", "name of the engine in reports; free text"},
     {"engine", "rated_rpm", Kind::number, kRpm, "", above(0).up_to(100000), "", required, "", "", "", "rated engine speed"},
-    {"engine", "max_rpm", Kind::number, kRpmAsRadS, "", above(0).up_to(100000), "", optional, "", "", "", "the highest speed the engine can have; a tick refuses a faster one. Without it the tick's length alone limits the speed"},
+    {"engine", "max_rpm", Kind::number, kRpmAsRadS, "", above(0).up_to(100000), "", optional, "", "", "", "the highest speed the engine can have; a faster input counts as bad and is replaced. Without it the tick's length alone limits the speed"},
 
     {"crank", "bore_mm", Kind::number, kMm, "crank.bore_m", kOfField, "", required, "", "", "", "bore"},
     {"crank", "stroke_mm", Kind::number, kMm, "", above(0).up_to(4000), "", required, "", "", "", "2 r; with a pin offset the true stroke is longer"},

@@ -37,10 +37,10 @@ void add(Summary& s, const std::string& name, const Extreme& extreme, double fac
 
 void add_extremes(Summary& s, const Crank& crank, PoseFunction pose, double speed) {
   const auto of = [&](PoseMember quantity) { return extremes(crank, quantity, pose); };
-  add(s, "displacement_max", of(&Pose<double>::displacement_m).largest, 1e3, "mm");
+  add(s, "max_displacement", of(&Pose<double>::displacement_m).largest, 1e3, "mm");
   const Extremes velocity = of(&Pose<double>::slope_m);
-  add(s, "velocity_max", velocity.largest, speed, "m/s");
-  add(s, "velocity_min", velocity.smallest, speed, "m/s");
+  add(s, "max_velocity", velocity.largest, speed, "m/s");
+  add(s, "min_velocity", velocity.smallest, speed, "m/s");
   Extremes acceleration = of(&Pose<double>::acceleration_m);
   const std::vector<LocalExtreme> local = local_extremes(crank, &Pose<double>::acceleration_m, pose);
   const double equal = 1e-9 * (acceleration.largest.value - acceleration.smallest.value);
@@ -48,8 +48,8 @@ void add_extremes(Summary& s, const Crank& crank, PoseFunction pose, double spee
     if (of_local->extreme.value < acceleration.smallest.value + equal) acceleration.smallest = of_local->extreme;
   }
   const double speed2 = speed * speed;
-  add(s, "acceleration_max", acceleration.largest, speed2, "m/s2", "toward the crankshaft");
-  add(s, "acceleration_min", acceleration.smallest, speed2, "m/s2");
+  add(s, "max_acceleration", acceleration.largest, speed2, "m/s2", "toward the crankshaft");
+  add(s, "min_acceleration", acceleration.smallest, speed2, "m/s2");
   int further = 0;
   for (const LocalExtreme& one : local) {
     const Extreme& of_turn = one.is_largest ? acceleration.largest : acceleration.smallest;
@@ -58,8 +58,8 @@ void add_extremes(Summary& s, const Crank& crank, PoseFunction pose, double spee
         one.is_largest ? "largest of its neighbourhood" : "smallest of its neighbourhood");
   }
   const Extremes rod = of(&Pose<double>::rod_angle_rad);
-  add(s, "rod_angle_max", rod.largest, 1 / kRadPerDeg, "deg");
-  if (crank.pin_offset_m != 0) add(s, "rod_angle_min", rod.smallest, 1 / kRadPerDeg, "deg");
+  add(s, "max_rod_angle", rod.largest, 1 / kRadPerDeg, "deg");
+  if (crank.pin_offset_m != 0) add(s, "min_rod_angle", rod.smallest, 1 / kRadPerDeg, "deg");
 }
 
 void add_series(Summary& s, const Crank& crank) {

@@ -280,7 +280,7 @@ constexpr Option kStudyOptions[] = {
               "one or two of: SECTION.KEY of the engine file, SECTION.NAME.KEY, KEY.3 for an entry of a list, or an "
               "option like rpm; VALUES: FROM:TO:N, or A,B,C")),
     required(words("--of", "COMMAND.NAME...",
-                   "numbers that valve, redline, kinematics, balance or run prints, like valve.max_lift")),
+                   "numbers that kinematics, balance, valve, redline or run prints: valve.max_lift, balance.power_kW")),
     words("--set", "NAME=VALUE...", "keys and options with another value than the file's or the default one"),
     kThreads,
     kShard,
@@ -296,7 +296,7 @@ constexpr Option kStudyOptions[] = {
 }  // namespace
 
 const Command kStudy{"study",
-                     "any number that a command prints, over one or two keys of the engine file or options",
+                     "numbers of kinematics, balance, valve, redline or run over one or two keys or options",
                      "FILE --vary NAME=VALUES [NAME=VALUES] --of COMMAND.NAME... [--set NAME=VALUE...] [--threads N]\n"
                      "       [--csv F] [--report F.html] [--plot F.svg] [--shard K/N --part F | --join F...]",
                      "crankloop study ohc_125.ini --vary rocker.intake.clearance_mm=0.02:0.2:10 rpm=6000:9000:7 --set "
