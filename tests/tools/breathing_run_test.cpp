@@ -297,6 +297,45 @@ TEST_F(BreathingRun, WarnsOfATickThatTurnsTheCrankTooFar) {
   EXPECT_EQ(contents(path("err")).find("turns the crank"), std::string::npos) << "36 deg, in eight steps";
 }
 
+/// A free engine gets as fast as it likes: it says what speed it reached.
+TEST_F(BreathingRun, SaysWhereAFreeEngineOutranItsTick) {
+  const auto told = [&](const char* tick_us) {
+    const std::string summary = run({kFour, "--free", "--from-rpm", "6000", "--machine-Nm", "120", "--seconds", "0.2",
+                                     "--tick-us", tick_us, "--report", path("report.html")});
+    const bool in_summary = summary.find("# a tick turns the crank by ") != std::string::npos;
+    EXPECT_EQ(contents(path("report.html")).find("warning: a tick turns the crank by") != std::string::npos,
+              in_summary);
+    return in_summary;
+  };
+  EXPECT_TRUE(told("2000"));
+  EXPECT_FALSE(told("500"));
+}
+
+/// Lambda is that of the cylinders that had fuel: one that is cut is not infinitely rich.
+TEST_F(BreathingRun, HasTheLambdaOfTheCylindersThatFire) {
+  const std::string summary = run({kEngines + "four_2000_everything.ini", "--free", "--from-rpm", "3000", "--throttle",
+                                   "0.3", "--machine-Nm", "20", "--seconds", "0.5", "--cut", "1"});
+  EXPECT_NEAR(line(summary, "excess_air_ratio").first, 1, 1e-4);
+  EXPECT_GT(line(summary, "burn_by_charge_duration").first, 40);
+}
+
+/// Crevices hold air that the burn lacks: fuel is consumed that does not burn, and said so.
+TEST_F(BreathingRun, ConsumesTheFuelThatFindsNoAir) {
+  const std::string everything = kEngines + "four_2000_everything.ini";
+  const std::string rich = run({everything, "--rpm", "3000", "--fuel-mg", "41"});
+  const double power_kW = line(rich, "brake_power").first;
+  EXPECT_NEAR(line(rich, "brake_specific_consumption").first, 41e-6 * 4 * 25 * 3600 * 1e3 / power_kW, 0.5);
+  EXPECT_NEAR(line(rich, "fuel_burned").first + line(rich, "fuel_unburned").first, 41, 0.1);
+  const std::string balanced = run({everything, "--rpm", "3000", "--lambda", "1"});  // docs/model.md
+  const double unburned_mg = line(balanced, "fuel_unburned").first;
+  EXPECT_NEAR(unburned_mg / (unburned_mg + line(balanced, "fuel_burned").first), 0.036, 0.001);
+  EXPECT_NEAR(line(balanced, "sensor_lambda").first, 1.029, 0.001);
+  const std::string lean = run({everything, "--rpm", "3000", "--fuel-mg", "20"});
+  EXPECT_EQ(lean.find("fuel_unburned"), std::string::npos) << lean;
+  EXPECT_NEAR(line(lean, "brake_specific_consumption").first,
+              20e-6 * 4 * 25 * 3600 * 1e3 / line(lean, "brake_power").first, 1e-3);
+}
+
 TEST_F(BreathingRun, IsRefusedWithAManifoldThatIsTooSmallForTheTick) {
   std::string text = contents(kFour);
   text.replace(text.find("intake_volume_cm3 = 3000"), 24, "intake_volume_cm3 = 1");

@@ -327,6 +327,20 @@ TEST_F(EngineFileTest, PinsAreNumberedAlongTheShaftWhateverTheCylindersAreCalled
   EXPECT_FALSE(boxer.section("layout").has("shared_pins"));
 }
 
+TEST_F(EngineFileTest, AnglesCountFromTheFirstCylinder) {
+  const std::string two = std::string(kOneCylinder) + "[layout]\ncylinders = 2\n";
+  EXPECT_NE(refusal(two + "firing_angles_deg = 30,390\n")
+                .find("firing_angles_deg: cylinder 1 fires at 30 deg; all angles "
+                      "count from its firing top dead centre"),
+            std::string::npos);
+  EXPECT_EQ(refusal(two + "firing_angles_deg = 0,360\n"), "");
+  EXPECT_NE(
+      refusal(std::string(kOneCylinder) + "[layout]\ncylinders = 4\nfiring_order = 4-2-1-3\n")
+          .find("firing_order: begins with cylinder 4; all angles count from cylinder 1's firing top dead centre, so "
+                "begin with it: 1-3-4-2"),
+      std::string::npos);
+}
+
 TEST_F(EngineFileTest, PinsThatMeetAreNumberedByTheMiddleOfTheirRods) {
   // A four with two pins of two rods: cylinders 1 and 3 stand at one place, where the pins meet, and each pin goes on
   // to the other side.

@@ -251,7 +251,9 @@ TEST(FlowFigures, AreTheTextbooks) {
   flow.geometric_m2_deg = 250 * 400e-6;
   flow.effective_m2_deg = 250 * 250e-6;
   const double rad_s = 6000 * kPi / 30;
-  const FlowFigures figures = flow_figures(flow, 2, engine, rad_s);
+  PortArea area;
+  area.add(flow, 2);
+  const FlowFigures figures = flow_figures(area, engine, rad_s);
   const double piston_m_s = 2 * 0.086 * 6000 / 60;
   const double displacement_m3 = kPi / 4 * 0.086 * 0.086 * 0.086;
   EXPECT_NEAR(figures.area_per_displacement_per_m, 2 * 400e-6 / displacement_m3, 1e-9);
@@ -261,7 +263,7 @@ TEST(FlowFigures, AreTheTextbooks) {
   const double sound_m_s = std::sqrt(1.4 * 287.1 * 300);
   EXPECT_NEAR(figures.mach_index, 0.086 * 0.086 / (2 * seat_m * seat_m) * piston_m_s / (coefficient * sound_m_s),
               1e-12);
-  EXPECT_EQ(flow_figures(flow, 2, engine, -rad_s).gas_speed_m_s, figures.gas_speed_m_s);
+  EXPECT_EQ(flow_figures(area, engine, -rad_s).gas_speed_m_s, figures.gas_speed_m_s);
 }
 
 // ---- keys ----

@@ -137,6 +137,35 @@ TEST_F(LiftCommand, TabulatesTheTrainOfThe125OverATurnOfItsCam) {
 }
 
 /// The sample of two litres: valves of 33 mm, of which a cylinder has two.
+/// Two intake valves of a cylinder as one train of two or as two trains of one: the same gas goes through them.
+TEST_F(LiftCommand, CountsTheValvesOfAllTrainsOfThePort) {
+  const std::string text = support::contents(CRANKLOOP_SOURCE_DIR "/tools/engines/four_2000.ini");
+  std::string rest, ones, twos;
+  bool of_intake = false;
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    if (line[0] == '[') of_intake = line.find(" intake]") != std::string::npos;
+    if (!of_intake) {
+      if (line.rfind("on = cam intake", 0) == 0) line = "on = cam in1";
+      rest += line + "\n";
+      continue;
+    }
+    if (line.compare(0, 12, "per_cylinder") == 0) line = "per_cylinder = 1";
+    const std::size_t name = line[0] == '[' ? line.find(" intake]") : std::string::npos;
+    ones += (name == std::string::npos ? line : line.substr(0, name) + " in1]") + "\n";
+    twos += (name == std::string::npos ? line : line.substr(0, name) + " in2]") + "\n";
+  }
+  const auto figures = [](const std::string& file, const char* train) {
+    testing::internal::CaptureStdout();
+    EXPECT_EQ(kLift.run(Arguments(kLift, {file, "--train", train, "--csv", "/dev/null"})), kSuccess);
+    const std::string summary = testing::internal::GetCapturedStdout();
+    return summary.substr(std::min(summary.size(), summary.find("area_per_displacement")));
+  };
+  const std::string together = figures(write("one.ini", text), "intake");
+  EXPECT_NE(together.find("inlet_mach_index"), std::string::npos) << together;
+  EXPECT_EQ(figures(write("two.ini", rest + ones + twos), "in1"), together);
+}
+
 TEST_F(LiftCommand, TellsTheFlowAreaWhereTheFileHasADiameterOfTheValve) {
   constexpr const char* kFour = CRANKLOOP_SOURCE_DIR "/tools/engines/four_2000.ini";
   const std::string csv = folder_ / "flow.csv";

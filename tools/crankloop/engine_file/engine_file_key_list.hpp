@@ -113,7 +113,7 @@ inline constexpr Key kRows[] = {
 
     {"layout", "cylinders", Kind::whole_number, kNoUnit, "layout.cylinders", kOfField, "", defaults, "1", "", "", "number of cylinders"},
     {"layout", "firing_order", Kind::firing_order, kNoUnit, "", kAny, "", optional, "", "", "firing:order", "even firing over 720 deg"},
-    {"layout", "firing_angles_deg", Kind::numbers, kDeg, "", from(0).below(720), "", optional, "", "", "firing:angles", "engine angle of each cylinder's firing TDC"},
+    {"layout", "firing_angles_deg", Kind::numbers, kDeg, "", from(0).below(720), "", optional, "", "", "firing:angles", "engine angle of each cylinder's firing TDC; the first is 0"},
     {"layout", "bank_angles_deg", Kind::numbers, kDeg, "", from(-360).up_to(360), "", optional, "", "", "", "cylinder axis from the vertical, in the sense of rotation; absent: all 0"},
     {"layout", "cylinder_spacing_mm", Kind::number, kMm, "", above(0).up_to(5000), "", optional, "", "", "place:spacing", "from cylinder to cylinder, from pin to pin where shared_pins is given; absent: 1.2 bore"},
     {"layout", "cylinder_positions_mm", Kind::numbers, kMm, "", from(-100000).up_to(100000), "", optional, "", "", "place:positions", "along the crankshaft, per cylinder"},

@@ -40,6 +40,12 @@ void check_order(const SectionValues& values, const std::vector<int>& order, int
 void set_firing(SectionValues& values, const std::string& path, Layout& layout) {
   if (values.has("firing_angles_deg")) {
     const std::vector<double>& angles_deg = one_per_cylinder(values, "firing_angles_deg", path);
+    if (angles_deg[0] != 0) {
+      refuse(values, "firing_angles_deg",
+             "cylinder 1 fires at " + brief(angles_deg[0]) +
+                 " deg; all angles count from its firing top dead centre, so subtract that from each (720 is 0)",
+             path);
+    }
     std::copy(angles_deg.begin(), angles_deg.end(), layout.firing_deg.begin());
     return;
   }
@@ -55,6 +61,16 @@ void set_firing(SectionValues& values, const std::string& path, Layout& layout) 
   }
   const std::vector<int>& order = values.find("firing_order")->groups.at(0);
   check_order(values, order, layout.cylinders, path);
+  if (order.front() != 1) {
+    std::vector<int> from_1 = order;
+    std::rotate(from_1.begin(), std::find(from_1.begin(), from_1.end(), 1), from_1.end());
+    std::string words;
+    for (const int cylinder : from_1) words += (words.empty() ? "" : "-") + std::to_string(cylinder);
+    refuse(values, "firing_order",
+           "begins with cylinder " + std::to_string(order.front()) +
+               "; all angles count from cylinder 1's firing top dead centre, so begin with it: " + words,
+           path);
+  }
   const Status status = set_firing_order(order.data(), layout.cylinders, layout);
   if (!status.ok()) refuse(values, "firing_order", describe(status.reason), path);
 }

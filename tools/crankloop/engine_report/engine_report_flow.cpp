@@ -56,9 +56,9 @@ std::vector<TrainFlow> flows_of(const ReportInput& input) {
     }
     flow.theory = theoretical_flow(*area, *lift);
     flow.elastic = sum.largest();
-    if (flow.elastic.open_deg > 0) {
-      flow.figures = flow_figures(flow.elastic, definition.trains[t].valve.per_cylinder, definition,
-                                  input.operation.speed_rad_s());
+    if (std::optional<OtherValves> others = valves_beside(input.file, train); others && flow.elastic.open_deg > 0) {
+      others->area.add(flow.elastic, train.definition.valve.per_cylinder);
+      flow.figures = flow_figures(others->area, definition, input.operation.speed_rad_s());
     }
     flows.push_back(std::move(flow));
   }

@@ -94,14 +94,11 @@ void FlowSum::add(double lift_m) noexcept {
   last_m_ = lift_m;
 }
 
-FlowFigures flow_figures(const FlowIntegrals& flow, int valves, const EngineDefinition& engine,
-                         double speed_rad_s) noexcept {
+FlowFigures flow_figures(const PortArea& area, const EngineDefinition& engine, double speed_rad_s) noexcept {
   const double moved_m3_s = bore_area_m2(engine.crank) * mean_piston_speed_m_s(engine.crank, std::abs(speed_rad_s));
   const double sound_m_s = std::sqrt(kHeatRatio * detail::kGasConstant<double> * engine.gas.ambient_K);
-  const double geometric_m2 = valves * flow.mean_geometric_m2();
-  const double effective_m2 = valves * flow.mean_effective_m2();
-  return {geometric_m2 / swept_volume_m3(engine.crank), moved_m3_s / geometric_m2,
-          moved_m3_s / (effective_m2 * sound_m_s)};
+  return {area.geometric_m2 / swept_volume_m3(engine.crank), moved_m3_s / area.geometric_m2,
+          moved_m3_s / (area.effective_m2 * sound_m_s)};
 }
 
 }  // namespace crankloop::program

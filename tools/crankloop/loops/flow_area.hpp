@@ -72,14 +72,25 @@ class FlowSum {
   FlowIntegrals largest_{};
 };
 
-/// What the mean areas of all valves of a train in one cylinder come to.
+/// Mean areas, while they are open, of all valves of one cylinder that open to one port.
+struct PortArea {
+  double geometric_m2 = 0;
+  double effective_m2 = 0;
+
+  void add(const FlowIntegrals& flow, int valves) noexcept {
+    geometric_m2 += valves * flow.mean_geometric_m2();
+    effective_m2 += valves * flow.mean_effective_m2();
+  }
+};
+
+/// What these come to.
 struct FlowFigures {
   double area_per_displacement_per_m = 0;  ///< A_v / V_h, by the mean geometric area
   double gas_speed_m_s = 0;                ///< F_p S_p over the mean geometric area
   double mach_index = 0;                   ///< Z, Taylor's, by the mean effective area
 };
 
-[[nodiscard]] FlowFigures flow_figures(const FlowIntegrals& flow, int valves, const EngineDefinition& engine,
+[[nodiscard]] FlowFigures flow_figures(const PortArea& area, const EngineDefinition& engine,
                                        double speed_rad_s) noexcept;
 
 }  // namespace crankloop::program

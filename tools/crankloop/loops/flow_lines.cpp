@@ -1,6 +1,9 @@
 #include "flow_lines.hpp"
 
 #include <cmath>
+#include <memory>
+
+#include <crankloop/tabulate/valve_lift.hpp>
 
 #include "../files/units.hpp"
 
@@ -49,11 +52,27 @@ void add_flow(Summary& s, const std::string& prefix, const FlowIntegrals& flow) 
   s.line(prefix + "effective_area_mean", flow.mean_effective_m2() * kMm2PerM2, "mm^2");
 }
 
+std::optional<OtherValves> valves_beside(const EngineFile& file, const TrainOfFile& train) {
+  OtherValves others;
+  const auto lift = std::make_unique<ValveLift>();
+  for (const TrainOfFile& other : file.trains()) {
+    if (other.name == train.name || is_exhaust(other) != is_exhaust(train)) continue;
+    const std::optional<FlowArea> area = flow_area_of(other);
+    if (!area || !lift->init(other.definition.cam, other.definition.rocker).ok()) return {};
+    others.count += other.definition.valve.per_cylinder;
+    others.area.add(theoretical_flow(*area, *lift), other.definition.valve.per_cylinder);
+  }
+  return others;
+}
+
 void add_flow_figures(Summary& s, const FlowIntegrals& flow, const EngineFile& file, const TrainOfFile& train,
                       std::optional<double> speed_rpm) {
   if (!file.has("crank") || !(flow.open_deg > 0)) return;
-  const int valves = train.definition.valve.per_cylinder;
-  const FlowFigures figures = flow_figures(flow, valves, file.definition(), speed_rpm.value_or(0) * kRad_sPerRpm);
+  std::optional<OtherValves> others = valves_beside(file, train);
+  if (!others) return;
+  const int valves = train.definition.valve.per_cylinder + others->count;
+  others->area.add(flow, train.definition.valve.per_cylinder);
+  const FlowFigures figures = flow_figures(others->area, file.definition(), speed_rpm.value_or(0) * kRad_sPerRpm);
   s.line("area_per_displacement", figures.area_per_displacement_per_m, "1/m",
          "mean flow area of " + std::to_string(valves) + (valves == 1 ? " valve" : " valves") +
              " over the displacement of a cylinder");

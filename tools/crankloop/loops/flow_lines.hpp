@@ -31,6 +31,14 @@ void add_flow_remarks(std::vector<std::string>& remarks, const TrainOfFile& trai
 /// Open period, integrals and means; names start with `prefix`.
 void add_flow(Summary& s, const std::string& prefix, const FlowIntegrals& flow);
 
+/// Of the other trains of the port, by their theoretical lift, the valves in a cylinder: their number and area. No
+/// value where the file gives too little for the area of one.
+struct OtherValves {
+  int count = 0;
+  PortArea area{};
+};
+[[nodiscard]] std::optional<OtherValves> valves_beside(const EngineFile& file, const TrainOfFile& train);
+
 /// Area over displacement, gas speed and, of an intake, the Mach index; nothing without [crank], speeds only where the
 /// speed is known.
 void add_flow_figures(Summary& s, const FlowIntegrals& flow, const EngineFile& file, const TrainOfFile& train,

@@ -58,8 +58,17 @@ void add_order(Summary& s, const GasOrder& order, const std::function<bool(const
   if (is_given("burn_start_deg") && is_given("by_spark_advance")) s.line("burn_start", order.burn_start_deg, "deg");
 }
 
+double unburned_kg(const Gas& gas, const GasFigures& figures) noexcept {
+  constexpr double kUncertain = 5e-3;
+  if (!gas.crevice.any()) return 0;
+  const double taken_kg = figures.air_over_lambda_kg / gas.air_fuel_ratio;
+  const double unburned_kg = taken_kg - figures.cycle.fuel_kg;
+  return unburned_kg > kUncertain * taken_kg ? unburned_kg : 0;
+}
+
 double fuel_kg_s(const EngineDefinition& engine, const GasFigures& figures, double speed_rad_s) noexcept {
-  return figures.cycle.fuel_kg * engine.layout.cylinders * speed_rad_s / kCycle_rad;
+  return (figures.cycle.fuel_kg + unburned_kg(engine.gas, figures)) * engine.layout.cylinders * speed_rad_s /
+         kCycle_rad;
 }
 
 std::vector<std::string> doubts_about(const GasFigures& figures) {
@@ -104,7 +113,8 @@ std::string remark_on_walls(const Walls& walls, const GasFigures& figures) {
 void add_gas(Summary& s, const EngineDefinition& engine, const GasFigures& figures) {
   const GasCycle<double>& cycle = figures.cycle;
   s.line("pumping_mep", cycle.pumping_mep_Pa / 1e3, "kPa", "from 180 to 540 deg; negative: a loss");
-  s.line("volumetric_efficiency", cycle.volumetric_efficiency, "", "air through the intake at ambient density");
+  s.line("volumetric_efficiency", cycle.volumetric_efficiency, "",
+         "air through the intake, by the file's ambient density");
   s.line("trapped_air", cycle.trapped_air_kg * 1e6, "mg",
          cycle.trapped_kg > 0 ? "in a cylinder when its intake closed" : "the intake did not close before the burn");
   s.line("residual_ratio", cycle.residual_ratio, "",
@@ -115,6 +125,9 @@ void add_gas(Summary& s, const EngineDefinition& engine, const GasFigures& figur
   const bool rich = cycle.excess_air_ratio > 0 && cycle.excess_air_ratio < 1;
   s.line("fuel_burned", cycle.fuel_kg * 1e6, "mg",
          rich ? "of a cylinder's cycle; of a rich mixture the excess gives no heat" : "of a cylinder's cycle");
+  if (const double unburned = unburned_kg(engine.gas, figures); unburned > 0)
+    s.line("fuel_unburned", unburned * 1e6, "mg",
+           "found no air beside that in crevices; the exhaust's lambda lacks it");
   s.line("excess_air_ratio", cycle.excess_air_ratio, "", remark_on_lambda(engine.gas, cycle.excess_air_ratio));
   if (engine.lambda_sensor.in_use) {
     s.line("exhaust_lambda", figures.exhaust_lambda, "", "of the gas in the exhaust manifold, at the end; 100: air");
@@ -177,18 +190,22 @@ std::vector<std::string> warnings_about_runners(const EngineFile& engine, double
 
 }  // namespace
 
-std::vector<std::string> warnings_about_gas(const EngineFile& engine, double speed_rpm, double tick_s) {
+std::string beyond_steps_of_gas(const EngineDefinition& engine, double speed_rpm, double tick_s) {
   constexpr double kFollowed_deg = 40;       // eight steps of 5 deg
   constexpr double kPercent_per_deg = 0.12;  // measured: 5 % at 42 deg, 14 % at 120
   const double deg = speed_rpm * 6 * tick_s;
+  if (!breathes(engine) || !(deg > kFollowed_deg)) return "";
+  return "a tick turns the crank by " + brief(deg) + " deg at " + brief(speed_rpm) +
+         " rpm, and gas follows in eight steps of at most 5 deg: net_mep may be off by some " +
+         brief(std::round(kPercent_per_deg * deg)) + " %; take --tick-us " +
+         brief(std::floor(kFollowed_deg / (speed_rpm * 6) * 1e6)) + " or less";
+}
+
+std::vector<std::string> warnings_about_gas(const EngineFile& engine, double speed_rpm, double tick_s) {
   if (!breathes(engine.definition())) return {};
   std::vector<std::string> warnings = warnings_about_runners(engine, tick_s);
-  if (!(deg > kFollowed_deg)) return warnings;
-  warnings.push_back(engine.path() + ": warning: a tick turns the crank by " + brief(deg) + " deg at " +
-                     brief(speed_rpm) +
-                     " rpm, and gas follows in eight steps of at most 5 deg: net_mep may be off by some " +
-                     brief(std::round(kPercent_per_deg * deg)) + " %; take --tick-us " +
-                     brief(std::floor(kFollowed_deg / (speed_rpm * 6) * 1e6)) + " or less");
+  const std::string steps = beyond_steps_of_gas(engine.definition(), speed_rpm, tick_s);
+  if (!steps.empty()) warnings.push_back(engine.path() + ": warning: " + steps);
   return warnings;
 }
 

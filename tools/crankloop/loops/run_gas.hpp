@@ -93,10 +93,12 @@ void write_gas(CsvWriter& csv, const crankloop::Output<Real, S>& out, const Engi
   if (engine.lambda_sensor.in_use) csv.cell(out.exhaust_excess_air_ratio), csv.cell(out.sensor_excess_air_ratio);
 }
 
-/// Means over the cylinders' last whole cycles; for the energy defect, the one of largest magnitude.
+/// Means over the cylinders' last whole cycles, of lambda over those that had fuel; for the energy defect, the one of
+/// largest magnitude.
 template <class Real, std::size_t Capacity>
 [[nodiscard]] GasCycle<double> mean_cycle(const GasCycle<Real> (&cycles)[Capacity], std::size_t cylinders) noexcept {
   GasCycle<double> mean{};
+  double fired = 0;
   for (std::size_t k = 0; k < cylinders; ++k) {
     const GasCycle<Real>& c = cycles[k];
     const auto add = [&](double GasCycle<double>::*to, Real value) {
@@ -112,13 +114,14 @@ template <class Real, std::size_t Capacity>
     add(&GasCycle<double>::volumetric_efficiency, c.volumetric_efficiency);
     add(&GasCycle<double>::exhaust_K, c.exhaust_K);
     add(&GasCycle<double>::fuel_kg, c.fuel_kg);
-    add(&GasCycle<double>::excess_air_ratio, c.excess_air_ratio);
+    if (c.excess_air_ratio > 0) ++fired, mean.excess_air_ratio += static_cast<double>(c.excess_air_ratio);
     add(&GasCycle<double>::heat_J, c.heat_J);
     add(&GasCycle<double>::wall_heat_J, c.wall_heat_J);
     const auto defect_J = static_cast<double>(c.energy_defect_J);
     const double magnitude_J = defect_J < 0 ? -defect_J : defect_J;
     if (magnitude_J > mean.energy_defect_J) mean.energy_defect_J = magnitude_J;
   }
+  if (fired > 0) mean.excess_air_ratio /= fired;
   return mean;
 }
 
@@ -137,7 +140,8 @@ struct GasFigures {
   double blow_by_kg = 0;                             ///< of a cylinder's cycle, their mean
   double knock_integral = 0;                         ///< largest of the cylinders
   double knock_deg = 0;                              ///< earliest of the cylinders that passed 1; 0: none did
-  double burn_start_deg = 0, burn_duration_deg = 0;  ///< by the charge, of a cylinder's cycle, their mean
+  double burn_start_deg = 0, burn_duration_deg = 0;  ///< by the charge, mean of the cylinders where it burned
+  double air_over_lambda_kg = 0;                     ///< trapped air over lambda, of a cylinder's cycle, their mean
   double exhaust_lambda = 0, sensor_lambda = 0;      ///< at the end; 0: no lambda sensor
 };
 
@@ -151,16 +155,25 @@ void take_cycles(const crankloop::Output<Real, S>& out, std::size_t cylinders, d
   figures.knock_integral = figures.knock_deg = 0;
   figures.exhaust_lambda = static_cast<double>(out.exhaust_excess_air_ratio);
   figures.sensor_lambda = static_cast<double>(out.sensor_excess_air_ratio);
+  figures.air_over_lambda_kg = 0;
   const double share = 1 / static_cast<double>(cylinders);
+  double burned = 0;
   for (std::size_t k = 0; k < cylinders; ++k) {
     figures.wall_K += static_cast<double>(out.wall_K[k]) * share;
     figures.blow_by_kg += static_cast<double>(out.cycle_blow_by_kg[k]) * share;
     const auto knock = static_cast<double>(out.knock_integral[k]), knock_deg = static_cast<double>(out.knock_deg[k]);
     if (knock >= 1 && (figures.knock_integral < 1 || knock_deg < figures.knock_deg)) figures.knock_deg = knock_deg;
     if (knock > figures.knock_integral) figures.knock_integral = knock;
-    figures.burn_start_deg += static_cast<double>(out.cycle_burn[k].start_deg) * share;
-    figures.burn_duration_deg += static_cast<double>(out.cycle_burn[k].duration_deg) * share;
+    if (out.cycle_burn[k].duration_deg > 0) {
+      ++burned;
+      figures.burn_start_deg += static_cast<double>(out.cycle_burn[k].start_deg);
+      figures.burn_duration_deg += static_cast<double>(out.cycle_burn[k].duration_deg);
+    }
+    const GasCycle<Real>& cycle = out.gas_cycle[k];
+    if (cycle.excess_air_ratio > 0)
+      figures.air_over_lambda_kg += static_cast<double>(cycle.trapped_air_kg / cycle.excess_air_ratio) * share;
   }
+  if (burned > 0) figures.burn_start_deg /= burned, figures.burn_duration_deg /= burned;
 }
 
 /// The line of a summary with the requested fuel: fuel, or lambda.
@@ -168,8 +181,15 @@ void add_fuel(Summary& s, const GasOrder& order);
 /// The lines that show the engine's inputs, throttle, fuel or lambda, burn_start: those that have one value.
 void add_order(Summary& s, const GasOrder& order, const std::function<bool(const char*)>& is_given);
 
-/// Fuel of all cylinders, at this speed.
+/// Fuel of a cylinder's cycle that found no air: in the burn's gas crevices lack theirs (docs/model.md, "Crevices and
+/// blow-by"). 0 below 0.5 %, which is as far as air left over from the last cycle makes it uncertain.
+[[nodiscard]] double unburned_kg(const Gas& gas, const GasFigures& figures) noexcept;
+
+/// Fuel of all cylinders, burned or not, at this speed.
 [[nodiscard]] double fuel_kg_s(const EngineDefinition& engine, const GasFigures& figures, double speed_rad_s) noexcept;
+
+/// That a tick turns the crank too far for the steps of the gas, and what to take; "": it does not.
+[[nodiscard]] std::string beyond_steps_of_gas(const EngineDefinition& engine, double speed_rpm, double tick_s);
 
 /// What a real engine would do otherwise than these figures say, a sentence each: it misfires, it knocks.
 [[nodiscard]] std::vector<std::string> doubts_about(const GasFigures& figures);

@@ -32,6 +32,24 @@ bool is_parameter(const SectionValues& section, const Value& value) {
   return value.used && value.key->kind == Kind::number && section.kind != "engine";
 }
 
+/// Units of keys that no variable of the library has.
+constexpr UnitOfName kUnitsOfKeys[] = {
+    {"C", "degC", 0, 0, 0, 1, 0},        {"cm3", "cm3", 0, 3, 0, 0, 0, 1e-6},
+    {"mg", "mg", 1, 0, 0, 0, 0, 1e-6},   {"J_per_K", "J/K", 1, 2, -2, -1, 0},
+    {"W_per_K", "W/K", 1, 2, -3, -1, 0}, {"MJ_per_kg", "MJ/kg", 0, 2, -2, 0, 0, 1e6},
+};
+
+/// The whole unit of a key: a part of it, such as the K of W_per_K, is another.
+const UnitOfName& unit_of_key(std::string_view name) {
+  if (name.empty()) return detail::kNoUnit;
+  for (const UnitOfName& unit : kUnitsOfKeys) {
+    if (unit.suffix == name) return unit;
+  }
+  const std::string end = "_" + std::string(name);
+  const UnitOfName& unit = detail::unit_of(end);
+  return unit.suffix == end ? unit : detail::kNoUnit;
+}
+
 /// The file complete, as `show` has it without its comments. word_of(section, value) is what stands behind the key.
 template <class WordOf>
 std::string text_of(const EngineFile& engine, const WordOf& word_of) {
@@ -103,8 +121,7 @@ void EngineSource::collect_numbers() {
       std::string name = "engine." + part + "." + value.key->name;
       const auto taken = [&name](const EngineNumber& other) { return other.name == name; };
       while (std::any_of(numbers_.begin(), numbers_.end(), taken)) name += "_";  // names that differ only in blanks
-      numbers_.push_back({name, value.key, unit.empty() ? &detail::kNoUnit : &detail::unit_of("_" + std::string(unit)),
-                          value.numbers.at(0)});
+      numbers_.push_back({name, value.key, &unit_of_key(unit), value.numbers.at(0)});
     }
   }
 }

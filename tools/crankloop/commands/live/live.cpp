@@ -23,6 +23,7 @@
 #include "../../files/units.hpp"
 #include "../../loops/fault_option.hpp"
 #include "../../loops/input_option.hpp"
+#include "../../loops/run_gas.hpp"
 #include "../../signals/signal_dump.hpp"
 #include "live_loop.hpp"
 #include "live_summary.hpp"
@@ -100,6 +101,7 @@ int run_live_command(const Arguments& arguments) {
   const std::string& real = arguments.text("--real");
   const bool shares = arguments.has("--shared");
   warn_of_running_alone(arguments, file, request);
+  tell_warnings(arguments, warnings_about_gas(file, 0, request.tick_s));
   std::optional<InputSchedule> schedule = read_inputs(arguments, file, live_inputs(file));
   if (schedule) tell_warnings(arguments, warnings_about_inputs(*schedule, request.at_start.excess_air_ratio));
   std::optional<Output> histogram, trace_file;

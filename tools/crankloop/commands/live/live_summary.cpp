@@ -14,6 +14,7 @@
 #include "../../files/csv.hpp"
 #include "../../files/number.hpp"
 #include "../../files/units.hpp"
+#include "../../loops/run_gas.hpp"
 
 namespace crankloop::program {
 namespace {
@@ -112,9 +113,10 @@ void add_times(Summary& s, std::int64_t tick_ns, const LiveFigures& f) {
   s.line("preemptions", f.preemptions);
 }
 
-void add_engine(Summary& s, const LiveFigures& f) {
+void add_engine(Summary& s, const EngineDefinition& engine, double tick_s, const LiveFigures& f) {
   s.line("final_speed", f.speed_rad_s * kRpmPerRad_s, "rpm");
-  s.line("mean_speed", f.mean_speed_rad_s * kRpmPerRad_s, "rpm");
+  const double mean_rpm = std::fabs(f.mean_speed_rad_s) * kRpmPerRad_s;
+  s.line("mean_speed", f.mean_speed_rad_s * kRpmPerRad_s, "rpm", beyond_steps_of_gas(engine, mean_rpm, tick_s));
   s.line("mean_torque", f.mean_torque_Nm, "Nm", "of gas and masses, over the ticks");
   if (f.intake_Pa > 0) {
     s.line("intake_pressure", f.intake_Pa / 1e3, "kPa", "in the manifold, at the end");
@@ -148,7 +150,7 @@ std::string live_summary(const EngineFile& file, const LiveRequest& request, con
   s.remark("histogram of the wake-up latency, in ticks; bars are logarithmic");
   add_picture(s, f.begin);
   s.remark("the engine");
-  add_engine(s, f);
+  add_engine(s, file.definition(), request.tick_s, f);
   if (!file.triggers().empty()) add_edges(s, f);
   if (extras.schedule != nullptr) {
     s.line("inputs_from_file", extras.schedule->columns());

@@ -47,6 +47,7 @@ class Within {
     state.torque_Nm = a_.torque_Nm + (b_.torque_Nm - a_.torque_Nm) * s;
     state.work_J = cubic(a_.work_J, b_.work_J, a_.torque_Nm * a_.speed_rad_s * tick_s_,
                          b_.torque_Nm * b_.speed_rad_s * tick_s_, s);
+    state.external_J = a_.external_J + (b_.external_J - a_.external_J) * s;
     return state;
   }
 
@@ -77,6 +78,10 @@ double FreeCycle::irregularity_ratio() const {
 }
 
 double FreeCycle::mean_torque_Nm() const { return (samples.back().work_J - samples.front().work_J) / kCycle_rad; }
+
+double FreeCycle::external_torque_Nm() const {
+  return (samples.back().external_J - samples.front().external_J) / kCycle_rad;
+}
 
 std::vector<double> FreeCycle::harmonics_rad_s() const {
   // A speed that drifts over the cycle is no harmonic: the straight line through both ends is taken off.

@@ -35,6 +35,7 @@ struct FreeCycle {
   [[nodiscard]] double smallest_speed_rad_s() const;
   [[nodiscard]] double irregularity_ratio() const;  ///< (largest - smallest) / mean
   [[nodiscard]] double mean_torque_Nm() const;      ///< of gas and masses: work over angle
+  [[nodiscard]] double external_torque_Nm() const;  ///< mean, against the rotation
 
   /// Amplitudes of the speed over the angle, of orders 0.5, 1, 1.5 ... per crank turn, in rad/s.
   [[nodiscard]] std::vector<double> harmonics_rad_s() const;

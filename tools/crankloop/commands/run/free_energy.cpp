@@ -12,6 +12,11 @@ namespace {
 
 constexpr int kParts = 7200;  ///< of a cycle
 
+bool any_misfires(const EngineDefinition& engine) {
+  return std::any_of(engine.misfires, engine.misfires + engine.layout.cylinders,
+                     [](const Misfire& rule) { return rule.pattern != MisfirePattern::none; });
+}
+
 }  // namespace
 
 double EnergyBalance::missing_ratio() const noexcept {
@@ -74,8 +79,9 @@ EnergyBooks::EnergyBooks(const ExactEngine& exact, const FreeOperation& operatio
     : engine_{exact.definition()},
       gas_{exact, operation},
       backwards_Nm_{gas_.backwards_Nm()},
-      by_torque_{breathes(engine_) || (operation.schedule && (operation.schedule->drives("load_ratio") ||
-                                                              operation.schedule->drives("cut_cylinders")))},
+      by_torque_{breathes(engine_) || any_misfires(engine_) ||
+                 (operation.schedule &&
+                  (operation.schedule->drives("load_ratio") || operation.schedule->drives("cut_cylinders")))},
       begin_{begin} {}
 
 double EnergyBooks::friction_Nm(double speed_rad_s) const noexcept {
@@ -127,7 +133,7 @@ EnergyBalance EnergyBooks::balance(const FreeState& end) const {
   const double gas_J =
       by_torque_ ? end.work_J - begin_.work_J + slowed_J_ : gas_.between_J(begin_.angle_deg, end.angle_deg);
   return {gas_J, starter_J_, friction_J_, load_J_ + end.external_J - begin_.external_J,
-          kinetic_J(end) - kinetic_J(begin_)};
+          kinetic_J(end) - kinetic_J(begin_), by_torque_};
 }
 
 }  // namespace crankloop::program

@@ -19,8 +19,9 @@ struct EnergyBalance {
   double gas_J = 0;
   double starter_J = 0;
   double friction_J = 0;
-  double load_J = 0;     ///< the external torque's too
-  double kinetic_J = 0;  ///< change
+  double load_J = 0;           ///< the external torque's too
+  double kinetic_J = 0;        ///< change
+  bool gas_by_torque = false;  ///< gas_J is of the loop's torque, not of the pressure diagram
 
   [[nodiscard]] double missing_J() const noexcept { return gas_J + starter_J - friction_J - load_J - kinetic_J; }
   /// Per the largest of them.

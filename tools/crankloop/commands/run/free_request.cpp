@@ -109,8 +109,8 @@ int run_free_by(const Arguments& arguments, const EngineFile& file, const GasOrd
   const std::vector<std::string> of_inputs =
       request.operation.schedule ? warnings_about_inputs(*request.operation.schedule, gas.excess_air_ratio)
                                  : std::vector<std::string>{};
-  for (const auto& lines :
-       {warnings_about_running_free(file, definition), warnings_about_sensor_faults_left_out(file), of_inputs}) {
+  for (const auto& lines : {warnings_about_running_free(file, definition), warnings_about_sensor_faults_left_out(file),
+                            of_inputs, warnings_about_gas(file, 0, request.operation.tick_s)}) {
     for (std::string& line : tell_warnings(arguments, lines)) warnings.push_back(std::move(line));
   }
   request.warnings = std::move(warnings);

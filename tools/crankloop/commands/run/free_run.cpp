@@ -159,8 +159,9 @@ FreeFigures run_ticks(const EngineFile& file, const EngineDefinition& definition
   figures.energy = books.balance(figures.end);
   figures.cycles.assign(recorder.cycles().begin(), recorder.cycles().end());
   if (!figures.cycles.empty()) {
-    figures.friction_Nm = books.friction_Nm(figures.cycles.back().mean_speed_rad_s());
-    figures.load_Nm = books.load_Nm(figures.cycles.back().mean_speed_rad_s());
+    const FreeCycle& last = figures.cycles.back();
+    figures.friction_Nm = books.friction_Nm(last.mean_speed_rad_s());
+    figures.load_Nm = books.load_Nm(last.mean_speed_rad_s()) + last.external_torque_Nm();
   }
   return figures;
 }
@@ -204,7 +205,8 @@ std::string summary_text(const EngineFile& file, const FreeRequest& request, con
   }
   s.line("turned", f.end.angle_deg / 360, "rev");
   s.line("speed_at_end", f.end.speed_rpm(), "rpm");
-  s.line("max_speed", f.largest_speed_rad_s * kRpmPerRad_s, "rpm");
+  s.line("max_speed", f.largest_speed_rad_s * kRpmPerRad_s, "rpm",
+         beyond_steps_of_gas(file.definition(), f.largest_speed_rad_s * kRpmPerRad_s, operation.tick_s));
   s.line("reversals", f.reversals);
   add_cycle(s, f);
   if (breathes(file.definition())) {

@@ -140,11 +140,11 @@ Section energy_section(const FreeReportInput& input) {
   section.blocks.push_back(Paragraph{
       "Energy balance error: " + report::format_number(energy.missing_ratio(), 2) +
       " of the largest energy. The work of the gas is " +
-      (breathes(input.definition) ? "the torque of the loop integrated over the angle, less the part of the masses"
-                                  : "the exact engine's torque integrated over the angle") +
+      (energy.gas_by_torque ? "the torque of the loop integrated over the angle, less the part of the masses"
+                            : "the exact engine's torque integrated over the angle") +
       "; the kinetic energy follows from the geometry, the energies of starter, friction and load from their power at "
       "the ticks" +
-      (breathes(input.definition) ? "." : ". All are computed independently of the simulation loop.") +
+      (energy.gas_by_torque ? "." : ". All are computed independently of the simulation loop.") +
       (input.figures.speed_was_limited() ? " The crank reached its speed limit, which took the energy that is missing."
                                          : "")});
   return section;
@@ -250,7 +250,11 @@ report::Page free_run_report(const FreeReportInput& input) {
   page.sections.push_back(assumption_section(input));
   report::put_first(page,
                     {pressure_in_words(input.file, input.request.operation.load_ratio, input.request.operation.gas)});
-  report::put_first(page, input.request.warnings);
+  std::vector<std::string> warnings = input.request.warnings;
+  const std::string steps = beyond_steps_of_gas(input.definition, input.figures.largest_speed_rad_s * kRpmPerRad_s,
+                                                input.request.operation.tick_s);
+  if (!steps.empty()) warnings.push_back(input.file.path() + ": warning: " + steps);
+  report::put_first(page, warnings);
   page.footer = "Made by crankloop from " + input.file.path() + ".";
   return page;
 }

@@ -253,6 +253,7 @@ class Description {
       exponent("rad", unit->rad);
       if (unit->written[0] == 'V') exponent("A", -1);
       if (unit->factor != 1) xml += attribute("factor", digits(unit->factor));
+      if (std::string_view(unit->written) == "degC") xml += attribute("offset", digits(273.15));
       xml += "/>\n";
       if (unit->displayed[0] != '\0') {
         xml += "      <DisplayUnit" + attribute("name", unit->displayed) +
