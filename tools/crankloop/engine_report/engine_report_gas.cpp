@@ -56,6 +56,8 @@ report::Table cycle_table(const ReportInput& input) {
   row("Residual gas, share of the trapped mass", 100 * c.residual_ratio, "%");
   row("Excess air ratio", c.excess_air_ratio, "");
   row("Fuel burned", c.fuel_kg * 1e6, "mg");
+  if (const double unburned = unburned_kg(input.file.definition().gas, input.figures.gas); unburned > 0)
+    row("Fuel that found no air beside that in crevices", unburned * 1e6, "mg");
   row("Heat of combustion", c.heat_J, "J");
   row("Heat to the walls", c.wall_heat_J, "J");
   if (input.file.definition().gas.crevice.any())

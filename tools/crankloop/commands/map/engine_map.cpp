@@ -25,7 +25,7 @@ double value_of(MapResult result, const EngineDefinition& definition, const RunP
   const auto& [operation, figures, brake] = run;
   const GasCycle<double>& cycle = figures.gas.cycle;
   const bool works = brake.power_W > 0 && cycle.fuel_kg > 0;
-  const double burned_kg_s = fuel_kg_s(definition, figures.gas, operation.speed_rad_s());
+  const double consumed_kg_s = fuel_kg_s(definition, figures.gas, operation.speed_rad_s());
   switch (result) {
     case MapResult::torque:
       return figures.mean_torque_Nm;
@@ -56,9 +56,9 @@ double value_of(MapResult result, const EngineDefinition& definition, const RunP
     case MapResult::peak_pressure:
       return cycle.peak_Pa / 1e3;
     case MapResult::specific_consumption:
-      return works ? burned_kg_s / brake.power_W * 3.6e9 : std::numeric_limits<double>::quiet_NaN();
+      return works ? consumed_kg_s / brake.power_W * 3.6e9 : std::numeric_limits<double>::quiet_NaN();
     case MapResult::brake_efficiency:
-      return works ? brake.power_W / (burned_kg_s * definition.gas.heating_value_J_kg) : 0;
+      return works ? brake.power_W / (consumed_kg_s * definition.gas.heating_value_J_kg) : 0;
     case MapResult::burn_start:
       return operation.gas.burn_start_deg;
     case MapResult::knock_integral:
