@@ -24,13 +24,17 @@ BaseUnits by_name(const std::string& unit) {
       {"s", {{{"s", 1}}, 1}},
       {"kg", {{{"kg", 1}}, 1}},
       {"K", {{{"K", 1}}, 1}},
+      {"degC", {{{"K", 1}}, 1}},
       {"rad", {{{"rad", 1}}, 1}},
       {"deg", {{{"rad", 1}}, kRpm / 6}},
+      {"cm", {{{"m", 1}}, 1e-2}},
       {"mm", {{{"m", 1}}, 1e-3}},
       {"um", {{{"m", 1}}, 1e-6}},
       {"g", {{{"kg", 1}}, 1e-3}},
+      {"mg", {{{"kg", 1}}, 1e-6}},
       {"N", {{{"kg", 1}, {"m", 1}, {"s", -2}}, 1}},
       {"J", {{{"kg", 1}, {"m", 2}, {"s", -2}}, 1}},
+      {"MJ", {{{"kg", 1}, {"m", 2}, {"s", -2}}, 1e6}},
       {"W", {{{"kg", 1}, {"m", 2}, {"s", -3}}, 1}},
       {"Pa", {{{"kg", 1}, {"m", -1}, {"s", -2}}, 1}},
       {"kPa", {{{"kg", 1}, {"m", -1}, {"s", -2}}, 1e3}},
@@ -149,8 +153,9 @@ TEST_P(DescriptionOf, UnitsAreDeclaredAsTheirNamesSay) {
     EXPECT_TRUE(declared.emplace(unit["name"], &unit).second) << "twice";
     std::map<std::string, int> exponents;
     for (const auto& [key, value] : unit.child("BaseUnit").attributes) {
-      if (key != "factor") exponents[key] = std::stoi(value);
+      if (key != "factor" && key != "offset") exponents[key] = std::stoi(value);
     }
+    EXPECT_EQ(unit.child("BaseUnit")["offset"], std::string(unit["name"] == "degC" ? "273.15" : ""));
     const BaseUnits expected = by_name(unit["name"]);
     EXPECT_EQ(exponents, expected.exponents);
     EXPECT_NEAR(factor_of(unit.child("BaseUnit")) / expected.factor, 1, 1e-14);
