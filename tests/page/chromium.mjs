@@ -121,7 +121,12 @@ export class Browser {
     await this.send('Browser.setDownloadBehavior', {behavior: 'allow', downloadPath: folder});
     await this.evaluate(`document.getElementById('${id}').click()`);
     const file = join(folder, name);
-    for (let i = 0; i < 400 && !(existsSync(file) && statSync(file).size > 0); ++i) await pause(25);
+    const isThere = () => existsSync(file) && statSync(file).size > 0;
+    for (let i = 0; i < 400 && !isThere(); ++i) await pause(25);
+    if (!isThere()) {
+      const said = await this.evaluate("document.getElementById('download-state').textContent");
+      throw new Error(`${name} did not come within 10 s; the page says "${said}"`);
+    }
     await pause(100);  // for the rest of it
     const bytes = readFileSync(file);
     rmSync(file);

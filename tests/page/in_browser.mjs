@@ -125,6 +125,8 @@ const kStories = {
   },
 
   async 'what a reader takes along: text, cycle, edges, picture'(browser, url, folder) {
+    const time_s = await browser.evaluate(kTime);
+    await browser.until(`${kTime} > ${time_s + 0.3}`);  // a whole cycle of the cylinder that is shown now
     const engine = (await browser.downloaded('get-engine', folder, 'fake.ini')).toString();
     assert.equal(engine, await browser.evaluate(`${kEditor}.value`));
     const csv = (await browser.downloaded('get-csv', folder, 'fake.csv')).toString().trimEnd().split('\n');
