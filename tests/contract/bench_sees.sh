@@ -28,7 +28,7 @@ END
 script path/valgrind <<'END'
 #!/bin/sh
 for ticks in "$@"; do :; done
-echo "==1== Collected : $((1000 + 50 * ticks))" >&2
+echo "==1== I   refs:      $((1000 + 50 * ticks))" >&2
 END
 for command in sh awk cat cp cut dirname grep head mkdir nproc sed tail tr uname; do ln -s "$(command -v $command)" "$folder/path/$command"; done
 bench() { PATH=$folder/path sh "$folder/contract/bench/bench.sh" "$folder/build" "$1"; }

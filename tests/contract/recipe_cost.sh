@@ -22,7 +22,7 @@ step_of() {
   { cmake -S "$project" -B "$work/$name" "-DCMAKE_PREFIX_PATH=$prefix" "-DCMAKE_CXX_COMPILER=$compiler" \
     "-DCRANKLOOP_SAMPLE_ENGINES=$checkout/tools/engines" "-DEXTRACTED_DIR=$code" "$@" &&
     cmake --build "$work/$name" --target firmware; } >"$work/$name.log" 2>&1 || { tail -n 40 "$work/$name.log" >&2 && return 1; }
-  of() { instructions --toggle-collect='*::step(*' "$work/$name/firmware" "$1"; }
+  of() { instructions_within '*::step(*' "$work/$name/firmware" "$1"; }
   echo $((($(of 20000) - $(of 10000) + 5000) / 10000))
 }
 

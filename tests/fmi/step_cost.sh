@@ -2,17 +2,13 @@
 # step_cost.sh FMU_COST MOST: what doStep of one tick, without get and set, costs above the tick itself: instructions, the
 # difference of two runs' lengths, FMU against the scene driven directly. Fails above MOST.
 set -eu
+# shellcheck source=../contract/instructions.sh
+. "$(dirname -- "$0")/../contract/instructions.sh"
 program=$1 most=$2
-log=$(mktemp)
-trap 'rm -f "$log"' EXIT
-instructions() {  # SCENE VERSION TICKS
-  valgrind --tool=callgrind --callgrind-out-file=/dev/null "$program" "$@" >"$log" 2>&1 || { cat "$log" && return 1; }
-  sed -n 's/.*Collected : //p' "$log"
-}
 ticks=4000
 per_tick() {  # SCENE VERSION: in hundredths
-  few=$(instructions "$1" "$2" 1000)
-  many=$(instructions "$1" "$2" $((1000 + ticks)))
+  few=$(instructions "$program" "$1" "$2" 1000)
+  many=$(instructions "$program" "$1" "$2" $((1000 + ticks)))
   echo $(((many - few) * 100 / ticks))
 }
 bad=0

@@ -138,7 +138,7 @@ performance() {
     echo && distributions "$csv"
     echo && rows "$csv" "a longer tick" '$1 == "growth"'
     echo && rows "$csv" "more and more outputs" '$1 == "skips"'
-    echo && echo "Instructions, counted by callgrind; $(head -n 1 "$here/instructions.txt" | cut -c 3-):"
+    echo && echo "Instructions, counted by valgrind; $(head -n 1 "$here/instructions.txt" | cut -c 3-):"
     echo && kernels
   } >"$build_dir/benchmark.md"
   cp "$build_dir/benchmark.md" "$checkout/docs/measurements/benchmark.md"

@@ -26,7 +26,7 @@ awk -v errors=$bench/errors.csv -v instructions=$bench/instructions.txt '
       else if (split(line, cell, " ") == 2) { count[cell[1]] = cell[2]; names[++kernels] = cell[1] }
     }
   }
-  /^Instructions, counted by callgrind; / { print "Instructions, counted by callgrind; " compiler ":"; next }
+  /^Instructions, counted by valgrind; / { print "Instructions, counted by valgrind; " compiler ":"; next }
   /^\| kernel / { table = 1; print; next }
   table && /^\| ---/ { print; for (i = 1; i <= kernels; ++i) print "| " names[i] " | " count[names[i]] " |"; next }
   table && /^\|/ { next }
