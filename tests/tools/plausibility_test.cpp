@@ -200,6 +200,36 @@ TEST_F(Unusual, AMixtureThatNoSparkLightsIsTold) {
   EXPECT_TRUE(warnings(diesel.with("fuel_mg", "10")).empty());
 }
 
+/// Fuel and spark of the command line are judged as the file's.
+TEST_F(Unusual, OrderOfTheCommandLineIsTold) {
+  const auto told = [](const char* file, const auto& change) {
+    const EngineFile engine = read_engine_file(CRANKLOOP_SOURCE_DIR "/tools/engines/" + std::string(file), {});
+    GasOrder order = gas_order(engine.definition().gas);
+    change(order);
+    const std::vector<std::string> lines = warnings_about_order(engine, order);
+    EXPECT_LE(lines.size(), 1u);
+    if (lines.empty()) return std::string();
+    const std::string start = engine.path() + ": warning: ";
+    EXPECT_EQ(lines[0].compare(0, start.size(), start), 0) << lines[0];
+    return lines[0].substr(start.size());
+  };
+  EXPECT_EQ(told("four_2000.ini", [](GasOrder&) {}), "");
+  EXPECT_EQ(told("four_2000.ini", [](GasOrder& order) { order.excess_air_ratio = 1.9; }), "");
+  EXPECT_EQ(told("four_2000.ini", [](GasOrder& order) { order.excess_air_ratio = 60; }),
+            "--lambda 60; usual with spark ignition: 0.7 to 2");
+  const auto by_fuel = [](double mg) {
+    return [mg](GasOrder& order) { order.excess_air_ratio = 0, order.fuel_kg = mg * 1e-6; };
+  };
+  EXPECT_EQ(told("four_2000.ini", by_fuel(30)), "");
+  EXPECT_EQ(told("four_2000.ini", by_fuel(53)),
+            "--fuel-mg 53 gives a lambda of about 0.68 in a cylinder full of air; "
+            "usual with spark ignition: 0.7 to 2");
+  EXPECT_EQ(told("four_2000.ini", by_fuel(0)), "");  // motored
+  EXPECT_EQ(told("diesel_495_gas.ini", by_fuel(10)), "");
+  EXPECT_EQ(told("four_2000.ini", [](GasOrder& order) { order.burn_start_deg = 30; }),
+            "--burn-start-deg = 30 is unusual; usual: -50 to 20 deg");
+}
+
 TEST_F(Unusual, ShapeOfACylinderIsToldOutsideItsBounds) {
   const Engine long_stroke = bare_.with("stroke_mm", "310").with("rod_length_mm", "600");
   EXPECT_TRUE(warnings(long_stroke).empty());  // 95 / 310 = 0.306, 155 / 600 = 0.258

@@ -5,6 +5,7 @@
 
 #include "../engine_file/following_springs.hpp"
 #include "../engine_file/plausibility.hpp"
+#include "gas_options.hpp"
 
 namespace crankloop::program {
 
@@ -17,7 +18,9 @@ std::vector<std::string> tell_warnings(const Arguments& arguments, std::vector<s
 EngineFile read_engine(const Arguments& arguments, const std::vector<std::string>& needed_sections,
                        std::vector<std::string>* warnings) {
   EngineFile engine = read_engine_file(arguments.file(), needed_sections);
-  std::vector<std::string> told = tell_warnings(arguments, warnings_about(engine));
+  std::vector<std::string> lines = warnings_about(engine);
+  for (std::string& line : warnings_about_gas_options(arguments, engine)) lines.push_back(std::move(line));
+  std::vector<std::string> told = tell_warnings(arguments, std::move(lines));
   if (warnings != nullptr) *warnings = std::move(told);
   return engine;
 }

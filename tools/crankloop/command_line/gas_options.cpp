@@ -1,5 +1,6 @@
 #include "gas_options.hpp"
 
+#include "../engine_file/plausibility.hpp"
 #include "../files/error.hpp"
 #include "../files/number.hpp"
 
@@ -44,6 +45,14 @@ GasOrder gas_order(const Arguments& arguments, const EngineFile& engine, double 
   GasOrder order = fuel_and_spark(arguments, engine);
   order.throttle_ratio = arguments.has(kThrottle.name) ? arguments.number(kThrottle.name) : throttle_unless_told;
   return order;
+}
+
+std::vector<std::string> warnings_about_gas_options(const Arguments& arguments, const EngineFile& engine) {
+  GasOrder order = gas_order(engine.definition().gas);
+  if (arguments.has(kFuel.name)) set_fuel_mg(order, arguments.number(kFuel.name));
+  if (arguments.has(kLambda.name)) order.excess_air_ratio = arguments.number(kLambda.name);
+  if (arguments.has(kBurnStart.name)) order.burn_start_deg = arguments.number(kBurnStart.name);
+  return warnings_about_order(engine, order);
 }
 
 std::string fuel_option(const GasOrder& order) {

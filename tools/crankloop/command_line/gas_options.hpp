@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include <crankloop/scenes.hpp>
 
@@ -33,6 +34,9 @@ void set_fuel_mg(GasOrder& order, double fuel_mg);
 /// The same, with the throttle. Throws UsageError for such options where the engine has no gas exchange,
 /// and for --load-ratio where it does.
 [[nodiscard]] GasOrder gas_order(const Arguments& arguments, const EngineFile& engine, double throttle_unless_told);
+
+/// Where the options above are given and unusual: warnings.
+[[nodiscard]] std::vector<std::string> warnings_about_gas_options(const Arguments& arguments, const EngineFile& engine);
 
 /// "--lambda 1", or "--fuel-mg 30".
 [[nodiscard]] std::string fuel_option(const GasOrder& order);

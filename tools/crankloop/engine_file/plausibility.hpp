@@ -7,11 +7,15 @@
 #include <vector>
 
 #include "engine_file.hpp"
+#include "gas_order.hpp"
 
 namespace crankloop::program {
 
 /// One line each: "FILE:LINE: warning: what is unusual; what is usual".
 [[nodiscard]] std::vector<std::string> warnings_about(const EngineFile& engine);
+
+/// Warnings about fuel and spark of the command line, where they are not the file's.
+[[nodiscard]] std::vector<std::string> warnings_about_order(const EngineFile& engine, const GasOrder& order);
 
 /// Warnings for a free-running engine; `definition` is the file's with the load of the run.
 [[nodiscard]] std::vector<std::string> warnings_about_running_free(const EngineFile& engine,
