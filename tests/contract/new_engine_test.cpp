@@ -190,6 +190,58 @@ TEST_F(NewEngine, TakesTwoValvesOrFour) {
   EXPECT_LT(value_of(two_valves, "net_mep_kPa"), value_of(four_valves, "net_mep_kPa"));
 }
 
+/// A train is as stiff as its size makes it, however slowly the engine turns.
+TEST_F(NewEngine, GivesASlowEngineNoSofterTrainThanItsSizeHas) {
+  const std::vector<std::string> four{"--cylinders", "4", "--bore-mm", "86", "--stroke-mm", "86"};
+  const std::string usual = made(four);
+  std::vector<std::string> options = four;
+  options.insert(options.end(), {"--rated-rpm", "1500"});
+  const std::string slow = made(options);
+  EXPECT_EQ(value_of(slow, "train_N_per_mm"), value_of(usual, "train_N_per_mm"));
+  options.back() = "9000";
+  const std::string fast = made(options);
+  const double frequency_rad_s = std::sqrt(value_of(fast, "train_N_per_mm") * 1e3 /
+                                           ((value_of(fast, "valve_g") + value_of(fast, "spring_g") / 3) / 1e3));
+  EXPECT_NEAR(frequency_rad_s / (9000 / 2 * 2 * 3.14159265358979 / 60), 40, 0.1);  // turns of the cam
+
+  // Full load presses a closed valve into its seat by less than a tenth of a millimetre.
+  for (const std::vector<std::string>& engine :
+       {options,
+        {"--cylinders", "6", "--bore-mm", "126", "--stroke-mm", "155", "--type", "diesel", "--rated-rpm", "1000"}}) {
+    const std::string text = made(engine);
+    const double peak_MPa = value_of(output({"run", "--cycles", "1"}), "max_pressure") / 1e3;
+    EXPECT_LT(peak_MPa * value_of(text, "head_area_mm2") / value_of(text, "seat_N_per_mm"), 0.2) << text;
+  }
+}
+
+TEST_F(NewEngine, PutsTwoRodsOfAVEngineOnOnePinWhereTheirThrowsAgree) {
+  const std::string v8 = made({"--cylinders", "8", "--bore-mm", "100", "--stroke-mm", "80", "--bank-angles-deg",
+                               "45,-45,45,-45,45,-45,45,-45", "--firing-order", "1-8-4-3-6-5-7-2"});
+  EXPECT_NE(v8.find("\nshared_pins = 1-2,3-4,5-6,7-8 "), std::string::npos) << v8;
+  EXPECT_EQ(value_of(v8, "cylinder_spacing_mm"), 120);
+  EXPECT_NE(v8.find("# 8 cylinders on 4 crank throws."), std::string::npos);
+  const std::string swapped = made({"--cylinders", "8", "--bore-mm", "100", "--stroke-mm", "80", "--bank-angles-deg",
+                                    "-45,45,-45,45,-45,45,-45,45", "--firing-order", "1-8-4-3-6-5-7-2"});
+  EXPECT_EQ(swapped.find("\nshared_pins"), std::string::npos);
+  EXPECT_NE(swapped.find("are the signs of the banks right?"), std::string::npos);
+  const std::string boxer = made({"--cylinders", "2", "--bore-mm", "90", "--stroke-mm", "67", "--bank-angles-deg",
+                                  "90,-90", "--firing-order", "1-2"});
+  EXPECT_EQ(value_of(boxer, "cylinder_spacing_mm"), 54);
+}
+
+TEST_F(NewEngine, WarnsOfAPressureThatNoEngineHas) {
+  for (const bool gas : {false, true}) {
+    std::vector<std::string> words{"new",    "--cylinders", "6",           "--bore-mm", "320",     "--stroke-mm", "400",
+                                   "--type", "diesel",      "--rated-rpm", "750",       "--boost", "4.5"};
+    if (gas) words.emplace_back("--gas");
+    const Answer answer = run(words);
+    EXPECT_EQ(answer.status, 0);
+    EXPECT_NE(answer.error.find("the largest pressure at full load is 28000 kPa; usual: up to 25000 kPa"),
+              std::string::npos)
+        << answer.error;
+  }
+}
+
 TEST_F(NewEngine, SaysItsCrankshaftAsShowDoes) {
   const std::string text = made({"--cylinders", "2", "--bore-mm", "90", "--stroke-mm", "70", "--firing-angles-deg",
                                  "0,270", "--bank-angles-deg", "0,90"});
@@ -274,6 +326,8 @@ TEST_F(NewEngine, RefusesWhatMakesNoEngine) {
   refused(of_size("80", "4.9"), {}, "--stroke-mm: 4.9 is out of range; allowed: 5 to 4000");
   refused(of_size("12", "12"), {"--gas"}, "--bore-mm: 12 is out of range with --gas; allowed: 13 to 400");
   refused(of_size("500", "500"), {"--gas"}, "--bore-mm: 500 is out of range with --gas; allowed: 13 to 400");
+  refused(of_size("380", "475"), {"--gas", "--type", "diesel", "--boost", "4"},
+          "--gas: full load takes 10600 mg of fuel in each of such cylinders; gas exchange takes up to 10000 mg");
   refused({"new", "--cylinders", "7", "--bore-mm", "95", "--stroke-mm", "115"}, {},
           "--firing-order or --firing-angles-deg is missing");
 }

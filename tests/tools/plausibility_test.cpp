@@ -177,6 +177,25 @@ TEST_F(Unusual, ARangeIsToldInTheUnitOfTheFileForAnEngineOfThisSize) {
   expect_only(sample_.with("net_mep_kPa", "10"), "net_mep_kPa", "net_mep_kPa = 10 is unusual; usual: 150 to 4000 kPa");
 }
 
+/// 250 N of preload by 500 N/mm is half a millimetre.
+TEST_F(Unusual, ATrainThatItsSpringCompressesFarIsTold) {
+  const Engine soft = sample_.with("spring_preload_N", "250").with("train_N_per_mm", "500");
+  expect_only(soft, "train_N_per_mm", "train_N_per_mm = 500: the spring's preload compresses the train by 0.5 mm");
+}
+
+TEST_F(Unusual, AGuideThatHoldsTheValveIsTold) {
+  expect_only(sample_.with("guide_damping_ratio", "0.3"), "guide_damping_ratio",
+              "guide_damping_ratio = 0.3 is unusual; usual: 1e-05 to 0.05");
+}
+
+TEST_F(Unusual, APressureThatNoEngineHasIsTold) {
+  const std::vector<std::string> told =
+      warnings(sample_.with("compression_ratio", "26").with("net_mep_kPa", "3950").with("intake_kPa", "250"));
+  ASSERT_EQ(told.size(), 1u);
+  EXPECT_NE(told[0].find("the largest pressure at full load is "), std::string::npos) << told[0];
+  EXPECT_NE(told[0].find(" kPa; usual: up to 25000 kPa"), std::string::npos) << told[0];
+}
+
 TEST_F(Unusual, FullLiftOnTheOtherTurnIsTold) {
   expect_only(sample_.with("full_lift_at_crank_deg", "106"), "full_lift_at_crank_deg",
               "full_lift_at_crank_deg = 106 is unusual; usual: 380 to 560 deg for an intake valve");
@@ -365,6 +384,25 @@ TEST_F(MeasuredCam, AValvesLiftLessItsClearanceIsTold) {
       EXPECT_TRUE(told.empty()) << step_deg << ": " << told[0];
     }
   }
+}
+
+/// Published lift is often over the crank's angle.
+TEST_F(MeasuredCam, AnglesOfTheCrankAreTold) {
+  const Engine engine = with_cam(0, 1, "200");
+  std::string table = "cam_deg,lift_mm\n";
+  for (const std::string& row : bad_input::lines_of(bad_input::contents(folder_ / "cam.csv"))) {
+    if (row[0] == 'c' || std::abs(std::stod(row)) > 89) continue;
+    table += shortest(2 * std::stod(row)) + row.substr(row.find(',')) + "\n";
+  }
+  write("cam.csv", table);
+  expect_only(engine, "file",
+              "deg wide, which is unusual; usual: 50 to 210 deg: are its angles of the cam, not of the crank?");
+}
+
+TEST_F(MeasuredCam, RowsTooFarApartForTheLobesShapeAreTold) {
+  const Engine engine = with_cam(0, 1, "auto");
+  write("cam.csv", "cam_deg,lift_mm\n-60,0\n-50,0.4\n-40,2\n-20,5\n0,6\n20,5\n40,2\n50,0.4\n60,0\n");
+  expect_only(engine, "smoothing_um", "smoothing_um = auto becomes 200, 3.3 % of the lift; usual: up to 0.5 %");
 }
 
 TEST_F(MeasuredCam, AMisreadRowThatRaisesTheSmoothingIsTold) {

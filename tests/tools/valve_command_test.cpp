@@ -589,6 +589,19 @@ TEST_F(ValveCommands, ARedlineNamesItsCurvesAtTheirEndsAndCutsThemWhereTheValveF
   }
 }
 
+/// A sweep that ends below rated speed, or begins far above it, would pass for a clean one.
+TEST_F(ValveCommands, ARedlinesRangeHoldsTheRatedSpeedOfSlowAndFastEngines) {
+  const auto range_at = [&](const char* rated) {
+    const ChangedFile file(kOhc125, "rated_rpm", std::string("rated_rpm = ") + rated);
+    const std::string text = run(kRedline, {file.path(), "--train", "intake", "--no-warnings"});
+    const std::size_t at = text.find("train intake, ") + 14;
+    return text.substr(at, text.find(" of the engine") - at);
+  };
+  EXPECT_EQ(range_at("7000"), "500 to 15000 rpm");
+  EXPECT_EQ(range_at("18000"), "500 to 36000 rpm");
+  EXPECT_EQ(range_at("100"), "25 to 2000 rpm");
+}
+
 TEST_F(ValveCommands, ARedlineTellsTheStaticOneBesideTheOnset) {
   const std::vector<std::string> range{"--train", "intake", "--from", "8500", "--to", "9060"};
   const auto told = [&](const std::string& file, const std::vector<std::string>& more) {
@@ -599,7 +612,7 @@ TEST_F(ValveCommands, ARedlineTellsTheStaticOneBesideTheOnset) {
   };
   const std::string above = told(kOhc125, {"--csv", path("r.csv")});
   EXPECT_NE(above.find("\nstatic_redline = 8954.39 rpm  # of rigid parts without damping, at 24.6 deg; 4.6 % above the "
-                       "onset: vibration, "),
+                       "onset, which has vibration and the guide's damping too\n"),
             std::string::npos)
       << above;
   const std::vector<std::string> rows = split_at(contents(path("r.csv")), '\n');
@@ -613,6 +626,14 @@ TEST_F(ValveCommands, ARedlineTellsTheStaticOneBesideTheOnset) {
   const ChangedFile free(damped.path().c_str(), "guide_damping_ratio", "guide_damping_ratio = 0");
   const std::string below = told(free.path(), {});
   EXPECT_NE(below.find(" % below the onset: vibration loads the train"), std::string::npos) << below;
+  // What a line blames is in the train.
+  const ChangedFile no_guide(kOhc125, "guide_damping_ratio", "guide_damping_ratio = 0");
+  EXPECT_NE(told(no_guide.path(), {}).find(" % above the onset, which has vibration too\n"), std::string::npos);
+  const ChangedFile with_gas(no_guide.path().c_str(), "head_area_mm2", "head_area_mm2 = 600");
+  const std::string by_gas = told(with_gas.path(), {});
+  EXPECT_NE(by_gas.find(" % above the onset, which has vibration and gas on the head too\n"), std::string::npos)
+      << by_gas;
+  EXPECT_NE(by_gas.find("\n# with the gas force on the head, full load\n"), std::string::npos);
 
   // As 1 / sqrt(mass), whatever the train's stiffness and damping.
   told(kOhc125, {"--vary", "mass", "--report", path("r.html")});

@@ -67,20 +67,35 @@ std::string firing_in_words(const Layout& layout) {
   return "Fires " + join(cylinders, "-") + ", at " + join(angles) + " deg: " + join(intervals) + " deg apart.";
 }
 
-std::string shared_pins_hint(const Layout& layout) {
-  if (static_cast<int>(throws_of(layout).size()) < layout.cylinders) return "";
+std::vector<std::string> pairs_for_one_pin(const Layout& layout) {
   std::vector<std::string> pairs;
-  int a = -1;  // the first two neighbours with banks at an angle
   for (int k = 0; k + 1 < layout.cylinders; ++k) {
     if (!at_an_angle(layout, k, k + 1)) continue;
-    if (a < 0) a = k;
     if (apart_deg(layout.throw_deg(k), layout.throw_deg(k + 1)) > kSameDeg) continue;
     pairs.push_back(std::to_string(k + 1) + "-" + std::to_string(k + 2));
     ++k;  // each rod runs on one pin
   }
-  if (a < 0) return "";
+  return pairs;
+}
+
+bool are_opposed(const Layout& layout) {
+  for (int k = 0; k + 1 < layout.cylinders; ++k) {
+    if (apart_deg(bank_deg(layout, k), bank_deg(layout, k + 1)) < 180 - kSameDeg) return false;
+  }
+  return layout.cylinders > 1;
+}
+
+std::string shared_pins_hint(const Layout& layout) {
+  if (static_cast<int>(throws_of(layout).size()) < layout.cylinders) return "";
+  int a = 0;  // of the first two neighbours with banks at an angle
+  while (a + 1 < layout.cylinders && !at_an_angle(layout, a, a + 1)) ++a;
+  if (a + 1 >= layout.cylinders) return "";
   const std::string start = "No two rods share a crank pin; where they do, name them: shared_pins = ";
-  if (!pairs.empty()) return start + join(pairs, ",");
+  const std::vector<std::string> pairs = pairs_for_one_pin(layout);
+  if (2 * static_cast<int>(pairs.size()) == layout.cylinders) return start + join(pairs, ",");
+  if (!pairs.empty())
+    return start + join(pairs, ",") +
+           ". The bank - firing angles of the others differ: are the signs of the banks right?";
   return start + std::to_string(a + 1) + "-" + std::to_string(a + 2) +
          ". Their bank - firing angles must then be equal, and are " + brief(full_turn(layout.throw_deg(a))) + " and " +
          brief(full_turn(layout.throw_deg(a + 1))) + " deg.";

@@ -24,6 +24,12 @@ struct CrankThrow {
 /// "Fires 1, 3, 4, 2, at 0, 180, 360, 540 deg: 180, 180, 180, 180 deg apart."
 [[nodiscard]] std::string firing_in_words(const Layout& layout);
 
+/// Neighbours of two banks at an angle whose throws agree, "1-2" and "3-4".
+[[nodiscard]] std::vector<std::string> pairs_for_one_pin(const Layout& layout);
+
+/// Whether each cylinder lies opposite to its neighbours: a boxer.
+[[nodiscard]] bool are_opposed(const Layout& layout);
+
 /// How to define rods of two banks on one pin; "" if some share a pin, and if no two banks are at an angle.
 [[nodiscard]] std::string shared_pins_hint(const Layout& layout);
 

@@ -218,7 +218,7 @@ inline constexpr Key kRows[] = {
     {"rocker", "pivot_to_screw_mm", Kind::number, kMm, "rocker.pivot_to_screw_m", kOfField, "", required, "", "", "train:geometry", "l_b"},
     {"rocker", "screw_ball_mm", Kind::number, kMm, "rocker.screw_ball_m", kOfField, "", required, "", "", "train:geometry", "rho, radius"},
     {"rocker", "stem_above_pivot_mm", Kind::number, kMm, "rocker.stem_above_pivot_m", kOfField, "", required, "", "", "train:geometry", "z"},
-    {"rocker", "clearance_mm", Kind::number, kMm, "rocker.clearance_m", kOfField, "", required, "", "", "", "at base circle"},
+    {"rocker", "clearance_mm", Kind::number, kMm, "rocker.clearance_m", kOfField, "", required, "", "", "", "at base circle; a hydraulic adjuster has 0"},
     {"rocker", "cam_turns", Kind::choice, kNoUnit, "", kAny, "toward_pivot|away_from_pivot", required, "", "", "train:geometry", "sense of the cam's rotation"},
 
     {"valve", "per_cylinder", Kind::whole_number, kNoUnit, "valve.per_cylinder", from(1).up_to(8), "", required, "", "", "", "how many of them a cylinder has"},

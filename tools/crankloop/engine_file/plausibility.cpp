@@ -202,17 +202,46 @@ void look_at_rows_left_out(const SectionValues& cam, const TrainOfFile& train, W
     warnings.add(cam.line_of("file"), train.points_path + ": " + in_words(*gap) + ": a smooth lobe goes across");
 }
 
+double largest_lift_m(const TrainOfFile& train) {
+  const auto lower = [](const CamPoint& a, const CamPoint& b) { return a.lift_m < b.lift_m; };
+  return std::max_element(train.points.begin(), train.points.end(), lower)->lift_m;
+}
+
 /// The largest lift, in the range of an analytic cam's.
 void look_at_largest_lift(const SectionValues& cam, const TrainOfFile& train, const EngineSize& size,
                           Warnings& warnings) {
   const UsualRange& range = *usual_range_of(*find_key("cam", "max_lift_mm"));
   const std::optional<double> per = size.of(range.per);
-  const auto lower = [](const CamPoint& a, const CamPoint& b) { return a.lift_m < b.lift_m; };
-  const double lift_mm = 1e3 * std::max_element(train.points.begin(), train.points.end(), lower)->lift_m;
+  const double lift_mm = 1e3 * largest_lift_m(train);
   if (!per || within(range.usual, lift_mm / *per)) return;
   warnings.add(cam.line_of("file"), train.points_path + ": lift_mm up to " + brief(lift_mm) + " is unusual; usual: " +
                                         about(range.usual.least * *per) + " to " + about(range.usual.most * *per) +
                                         " mm" + in_words(range.per) + ": is it in mm?");
+}
+
+/// From where the lobe leaves the base circle to where it returns, in half.
+void look_at_width_of_lobe(const SectionValues& cam, const TrainOfFile& train, Warnings& warnings) {
+  constexpr Interval kHalfWidthDeg{25, 105};
+  const std::vector<double> angles_deg = angles_of_lobe(train);
+  if (angles_deg.size() < 2) return;
+  const double half_deg = (angles_deg.back() - angles_deg.front()) / 2;
+  if (within(kHalfWidthDeg, half_deg)) return;
+  warnings.add(cam.line_of("file"), train.points_path + ": the lobe is " + brief(2 * half_deg) +
+                                        " deg wide, which is unusual; usual: " + brief(2 * kHalfWidthDeg.least) +
+                                        " to " + brief(2 * kHalfWidthDeg.most) +
+                                        " deg: are its angles of the cam, not of the crank?");
+}
+
+/// The residual of `smoothing_um = auto`, beside the lift.
+void look_at_residual(const SectionValues& cam, const TrainOfFile& train, Warnings& warnings) {
+  constexpr double kMostOfLift = 0.005;
+  if (!train.rows || !misread_row({train.points_path, train.points, train.point_lines}, *train.rows).empty()) return;
+  const double share = cam.number("smoothing_um") * 1e-6 / largest_lift_m(train);
+  if (share <= kMostOfLift) return;
+  warnings.add(cam.line_of("smoothing_um"),
+               "smoothing_um = auto becomes " + brief(cam.number("smoothing_um")) + ", " + about(100 * share) +
+                   " % of the lift; usual: up to " + brief(100 * kMostOfLift) +
+                   " %: are there enough rows for the lobe's shape, one each few degrees?");
 }
 
 void look_at_measured_cams(const EngineFile& engine, const EngineSize& size, Warnings& warnings) {
@@ -221,8 +250,28 @@ void look_at_measured_cams(const EngineFile& engine, const EngineSize& size, War
     const SectionValues& cam = engine.section("cam " + train.name);
     look_at_largest_lift(cam, train, size, warnings);
     look_at_rows_left_out(cam, train, warnings);
+    look_at_width_of_lobe(cam, train, warnings);
     look_at_misread_rows(cam, train, warnings);
+    look_at_residual(cam, train, warnings);
     look_at_feet(cam, train, warnings);
+  }
+}
+
+/// Warns about a train that its spring's preload alone compresses far.
+void look_at_soft_trains(const EngineFile& engine, Warnings& warnings) {
+  constexpr double kMostOfLift = 0.02;
+  for (const TrainOfFile& train : engine.trains()) {
+    if (!train.complete()) continue;
+    const Cam& cam = train.definition.cam;
+    const double lift_m = cam.source == CamSource::table ? largest_lift_m(train) : cam.max_lift_m;
+    const double shrinks_m = train.definition.valve.spring_preload_N / train.definition.valve.train_N_m;
+    if (shrinks_m <= kMostOfLift * lift_m) continue;
+    const SectionValues& valve = engine.section("valve " + train.name);
+    warnings.add(valve.line_of("train_N_per_mm"),
+                 "train_N_per_mm = " + brief(valve.number("train_N_per_mm")) +
+                     ": the spring's preload compresses the train by " + about(shrinks_m * 1e3) + " mm, " +
+                     about(100 * shrinks_m / lift_m) + " % of the cam's lift; usual: up to " +
+                     brief(100 * kMostOfLift) + " %");
   }
 }
 
@@ -337,9 +386,10 @@ void look_at_diagram(const EngineFile& engine, Warnings& warnings) {
   const bool is_table = pressure.has("file");
   const int line = pressure.line_of(is_table ? "file" : "compression_exponent");
   look_at_trace(d.pressure, line, warnings);
-  if (is_table)
-    warnings.add_unless(kBottomKPa, diagram->full_Pa(kBottomDeg) / 1e3, line, "pressure where the compression begins",
-                        " kPa", ": is it in kPa, and absolute?");
+  const bool in_kPa = !is_table || warnings.add_unless(kBottomKPa, diagram->full_Pa(kBottomDeg) / 1e3, line,
+                                                       "pressure where the compression begins", " kPa",
+                                                       ": is it in kPa, and absolute?");
+  if (in_kPa) warnings.add_if_any(line, unusual_peak(diagram->peak_Pa()));
 
   const auto motored_Pa = [&](double deg) { return diagram->motored_Pa(deg); };
   const auto volume_m3 = [&](double deg) {
@@ -378,10 +428,18 @@ std::vector<std::string> warnings_about(const EngineFile& engine) {
   look_at_values(engine, size, metres, warnings);
   look_at_cams(engine, warnings);
   look_at_measured_cams(engine, size, warnings);
+  look_at_soft_trains(engine, warnings);
   look_at_mixture(engine, size, warnings);
   look_at_runners(engine, warnings);
   look_at_burn(engine, warnings);
   return warnings.lines();
+}
+
+std::string unusual_peak(double peak_Pa) {
+  constexpr double kMost_kPa = 25000;  // of diesels with high boost
+  if (peak_Pa / 1e3 <= kMost_kPa) return "";
+  return "the largest pressure at full load is " + about(peak_Pa / 1e3) + " kPa; usual: up to " + brief(kMost_kPa) +
+         " kPa: are compression ratio, boost and mean effective pressure those of one engine?";
 }
 
 std::vector<std::string> warnings_about_order(const EngineFile& engine, const GasOrder& order) {

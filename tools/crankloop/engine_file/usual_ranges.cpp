@@ -29,7 +29,7 @@ constexpr UsualRange kRanges[] = {
     {"masses", "crank_web_radius_mm", Per::stroke, {0.02, 1}, kOrZero},
     {"masses", "crank_inertia_kg_m2", Per::inertia, {0.008, 1.5}},
 
-    {"layout", "cylinder_spacing_mm", Per::bore, {1, 2.5}},
+    {"layout", "cylinder_spacing_mm", Per::bore, {0.4, 2.5}},
 
     {"pressure", "crankcase_kPa", Per::one, {50, 200}},
     {"pressure", "intake_kPa", Per::one, {20, 600}},
@@ -118,7 +118,7 @@ constexpr UsualRange kRanges[] = {
     {"valve", "spring_preload_N", Per::bore2, {0.01, 80}},
     {"valve", "train_N_per_mm", Per::bore, {0.5, 5000}},
     {"valve", "train_damping_ratio", Per::one, {0.003, 1}, kOrZero},
-    {"valve", "guide_damping_ratio", Per::one, {1e-5, 0.5}, kOrZero},
+    {"valve", "guide_damping_ratio", Per::one, {1e-5, 0.05}, kOrZero},
     {"valve", "seat_N_per_mm", Per::bore, {2, 50000}},
     {"valve", "seat_damping_ratio", Per::one, {0.003, 1}, kOrZero},
     {"valve", "head_area_mm2", Per::bore2, {1, 50}, kOrZero},

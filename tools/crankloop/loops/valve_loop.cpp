@@ -261,6 +261,18 @@ double largest_change_of_lift_m(const LoneValve& valve, double speed_rpm, double
   return static_cast<double>(largest);
 }
 
+bool gas_acts(const LoneValve& valve) noexcept {
+  return valve.valve().head_area_m2 > 0 && !breathes(valve.file().definition()) &&
+         valve.definition().pressure.source != PressureSource::none;
+}
+
+std::string gas_on_head(const LoneValve& valve) {
+  if (gas_acts(valve)) return "with the gas force on the head, full load";
+  if (!(valve.valve().head_area_m2 > 0)) return "no gas force: head_area_mm2 is 0";
+  if (breathes(valve.file().definition())) return "no gas force: for an engine with gas exchange use `crankloop run`";
+  return "no gas force: the file has no [pressure] source";
+}
+
 template class ValveLoop<float>;
 template class ValveLoop<double>;
 template ValveCycle<float> run_cycles(ValveLoop<float>&, const LoneValve&, double, int, const OnValveTick<float>&,

@@ -60,6 +60,11 @@ class LoneValve {
   std::shared_ptr<const ValveLift> lift_;
 };
 
+/// Whether the gas of full load presses on the valve's head.
+[[nodiscard]] bool gas_acts(const LoneValve& valve) noexcept;
+/// The same in words, with the reason where it does not.
+[[nodiscard]] std::string gas_on_head(const LoneValve& valve);
+
 /// The tick's integrator, or the textbook's in its place.
 struct ValveMethod {
   ValveStepping stepping{};

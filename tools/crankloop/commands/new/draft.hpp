@@ -10,6 +10,7 @@
 #include <optional>
 #include <string>
 
+#include <crankloop/define/layout.hpp>
 #include <crankloop/tabulate/indicator_diagram.hpp>
 
 #include "../../command_line/arguments.hpp"
@@ -78,6 +79,9 @@ struct Numbers {
 /// [engine] and [crank].
 void add_crank(Draft& draft, const Arguments& arguments, Numbers& n);
 void add_masses_and_layout(Draft& draft, const Arguments& arguments, const Numbers& n);
+
+/// The places of the cylinders of such a layout, behind it.
+void add_places(Draft& draft, const Layout& layout, const Numbers& n);
 
 /// [friction], [machine] and [starter]; `diagram` follows from the sections above.
 void add_what_turns_it(Draft& draft, const IndicatorDiagram& diagram, Numbers& n);

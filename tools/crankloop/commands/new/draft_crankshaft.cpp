@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "../../engine_file/crankshaft_words.hpp"
 #include "../../files/error.hpp"
 #include "../../files/units.hpp"
+#include "../../files/words.hpp"
 
 namespace crankloop::program {
 namespace {
@@ -26,7 +28,7 @@ void add_crank(Draft& draft, const Arguments& arguments, Numbers& n) {
   n.stroke_mm = arguments.number("--stroke-mm");
   draft.section("engine");
   draft.line("name", arguments.text("--name"), arguments.has("--name") ? "given" : "assumed");
-  n.rated_rpm = draft.number("rated_rpm", "--rated-rpm", std::round(piston_m_s * 300 / n.stroke_mm) * 100,
+  n.rated_rpm = draft.number("rated_rpm", "--rated-rpm", usual_rated_rpm(n.design, n.stroke_mm),
                              "a mean piston speed of " + shortest(piston_m_s) + " m/s");
   draft.section("crank");
   n.bore_mm = draft.number("bore_mm", "--bore-mm", 0, "");
@@ -67,8 +69,20 @@ void add_masses_and_layout(Draft& draft, const Arguments& arguments, const Numbe
                ordered ? "given" : "assumed: the usual one");
   }
   if (banked) draft.line("bank_angles_deg", arguments.text("--bank-angles-deg"), "given");
-  if (!banked)
-    draft.assume("cylinder_spacing_mm", to_three_digits(1.2 * n.bore_mm), "1.2 bores; matters for free moments only");
+}
+
+void add_places(Draft& draft, const Layout& layout, const Numbers& n) {
+  const std::vector<std::string> pairs = pairs_for_one_pin(layout);
+  if (!pairs.empty() && 2 * static_cast<int>(pairs.size()) == layout.cylinders)
+    draft.line("shared_pins", join(pairs, ","), "assumed: neighbours of two banks whose throws agree");
+  if (are_opposed(layout)) {
+    draft.assume("cylinder_spacing_mm", to_three_digits(0.6 * n.bore_mm),
+                 "0.6 bores from pin to pin, 1.2 in a bank; matters for free moments only");
+  } else {
+    draft.assume("cylinder_spacing_mm", to_three_digits(1.2 * n.bore_mm),
+                 pairs.empty() ? "1.2 bores; matters for free moments only"
+                               : "1.2 bores from pin to pin; matters for free moments only");
+  }
 }
 
 void add_what_turns_it(Draft& draft, const IndicatorDiagram& diagram, Numbers& n) {

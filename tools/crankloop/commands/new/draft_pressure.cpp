@@ -1,6 +1,10 @@
 // The pressure of the cylinders: a diagram, or gas exchange.
 #include "draft.hpp"
 
+#include <crankloop/scenes.hpp>
+
+#include "../../files/error.hpp"
+
 namespace crankloop::program {
 
 void add_pressure(Draft& draft, Numbers& n) {
@@ -69,7 +73,13 @@ void add_gas_exchange(Draft& draft, const Numbers& n) {
   }
   constexpr double kHeatingValue_MJ_kg = 42.5;
   const double work_J = n.net_mep_kPa * n.displacement_L / n.cylinders;
-  rounded("fuel_mg", work_J / (kDieselEfficiency * kHeatingValue_MJ_kg),
+  const double fuel_mg = work_J / (kDieselEfficiency * kHeatingValue_MJ_kg);
+  if (fuel_mg > kMaxFuel_kg * 1e6) {
+    throw UsageError("--gas: full load takes " + brief(to_three_digits(fuel_mg)) +
+                     " mg of fuel in each of such cylinders; gas exchange takes up to " + brief(kMaxFuel_kg * 1e6) +
+                     " mg: a smaller bore, stroke, --boost or --net-mep-kPa, or no --gas");
+  }
+  rounded("fuel_mg", fuel_mg,
           "full load, a net mean effective pressure of " + brief(to_three_digits(n.net_mep_kPa)) +
               " kPa at an efficiency of " + shortest(kDieselEfficiency));
   draft.assume("heating_value_MJ_per_kg", kHeatingValue_MJ_kg, "diesel fuel");

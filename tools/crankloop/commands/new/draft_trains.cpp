@@ -14,8 +14,9 @@ constexpr double kCamEndsWith_m_s = 0.2;  ///< at rated speed; the valve's seati
 constexpr double kMostClearancePerLift = 0.008;
 constexpr double kSpringMargin = 1.9;  ///< least spring force at full lift / inertia force at the nose at rated speed
 constexpr double kPreloadShare = 0.4;  ///< preload / spring force at full lift
-constexpr double kTrainOrders = 40;    ///< natural frequency of the train / rotation frequency of the cam; the sample
-                                       ///< engines have 35 and 38
+/// Natural frequency of the train / rotation frequency of the cam, at rated speed or, for an engine that is rated
+/// slower than its size allows, at the usual speed of a square engine of its bore. The sample engines have 35 and 38.
+constexpr double kTrainOrders = 40;
 
 }  // namespace
 
@@ -30,7 +31,10 @@ void add_train(Draft& draft, const char* name, double full_lift_deg, const Numbe
   const Seats seats = usual_seats(n.design, n.bore_mm);
   const double preload_N = std::max(kPreloadShare * kSpringMargin * nose_N, kPreload_N_mm2 * seat_mm2(seats.intake_mm));
   const double full_lift_N = preload_N / kPreloadShare;
-  const double train_N_per_mm = to_three_digits(moving_kg * std::pow(kTrainOrders * cam_rad_s, 2) / 1e3);
+  const double square_rpm = usual_rated_rpm(n.design, n.bore_mm);
+  const double stiff_at_rpm = std::max(n.rated_rpm, square_rpm);
+  const double train_N_per_mm =
+      to_three_digits(moving_kg * std::pow(kTrainOrders * stiff_at_rpm * kRad_sPerRpm / 2, 2) / 1e3);
   std::string exponents;
   for (const double exponent : kCamExponents) exponents += (exponents.empty() ? "" : ",") + shortest(exponent);
   draft.section((std::string("cam ") + name).c_str());
@@ -64,7 +68,8 @@ void add_train(Draft& draft, const char* name, double full_lift_deg, const Numbe
                shortest(kPreload_N_mm2) + " N for a mm2 of the intake seat, or more where the speed needs it");
   draft.assume("head_area_mm2", to_three_digits(seat_mm2(seat_mm)), "inside the seat; gas presses on it");
   draft.assume("train_N_per_mm", train_N_per_mm,
-               "natural frequency " + shortest(kTrainOrders) + " times the cam's at rated speed");
+               "natural frequency " + shortest(kTrainOrders) + " times the cam's at " +
+                   (stiff_at_rpm > n.rated_rpm ? shortest(stiff_at_rpm) + " rpm, usual for this bore" : "rated speed"));
   draft.assume("train_damping_ratio", 0.08, "usual");
   draft.assume("guide_damping_ratio", 0.003, "usual");
   draft.assume("seat_N_per_mm", to_three_digits(8 * train_N_per_mm), "8 times the train");

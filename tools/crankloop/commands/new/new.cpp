@@ -80,9 +80,11 @@ int run_new(const Arguments& arguments) {
   }
   Draft body(arguments);
   add_masses_and_layout(body, arguments, n);
+  if (n.cylinders > 1) add_places(body, read_draft(crank.text() + body.text() + diagram.text()).definition().layout, n);
   const EngineFile half_way = read_draft(crank.text() + body.text() + diagram.text());
+  const std::unique_ptr<IndicatorDiagram> estimate = diagram_of(half_way);
   Draft rest(arguments);
-  add_what_turns_it(rest, *diagram_of(half_way), n);
+  add_what_turns_it(rest, *estimate, n);
   add_train(rest, "intake", 468, n);
   add_train(rest, "exhaust", n.gas ? n.gas->exhaust_full_lift_deg : 262, n);
   add_triggers(rest);
@@ -95,6 +97,8 @@ int run_new(const Arguments& arguments) {
       rest.text();
   const EngineFile engine = read_draft(text);
   tell_warnings(arguments, warnings_about(engine));
+  if (const std::string unusual = unusual_peak(estimate->peak_Pa()); n.gas && !unusual.empty())
+    tell_warnings(arguments, {std::string(kCommand) + ": warning: " + unusual});
   print(text);
   return kSuccess;
 }

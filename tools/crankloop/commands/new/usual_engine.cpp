@@ -60,6 +60,10 @@ double usual_piston_speed_m_s(const EngineDesign& design) noexcept {
   return design.four_valves ? 15 : 13;
 }
 
+double usual_rated_rpm(const EngineDesign& design, double stroke_mm) noexcept {
+  return std::round(usual_piston_speed_m_s(design) * 300 / stroke_mm) * 100;
+}
+
 const Combustion& usual_combustion(const EngineDesign& design) noexcept {
   if (is_spark(design)) return is_boosted(design) ? kSparkIgnitionBoosted : kSparkIgnition;
   return is_boosted(design) ? kDieselBoosted : kDiesel;

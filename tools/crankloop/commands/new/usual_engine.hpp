@@ -30,6 +30,9 @@ struct Combustion {
 /// m/s at rated speed. Heywood, Internal Combustion Engine Fundamentals (1988), section 2.2.
 [[nodiscard]] double usual_piston_speed_m_s(const EngineDesign& design) noexcept;
 
+/// At that piston speed, to 100 rpm.
+[[nodiscard]] double usual_rated_rpm(const EngineDesign& design, double stroke_mm) noexcept;
+
 [[nodiscard]] const Combustion& usual_combustion(const EngineDesign& design) noexcept;
 
 /// Net indicated mean effective pressure at full load and rated speed, from published power of production engines and

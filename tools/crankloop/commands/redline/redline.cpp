@@ -23,6 +23,8 @@
 namespace crankloop::program {
 namespace {
 
+constexpr double kMostRpm = 100000;
+
 /// Approximate number of speeds of a sweep: its own and two bisections.
 double speeds_of(const SpeedRange& range) {
   return (range.to_rpm - range.from_rpm) / range.step_rpm + 1 + 2 * std::log2(std::max(range.step_rpm, 1));
@@ -38,8 +40,19 @@ RedlineLimits limits_of(const Arguments& arguments, const LoneValve& valve) {
   return limits;
 }
 
-SpeedRange range_of(const Arguments& arguments) {
-  const SpeedRange range = speed_range(arguments.whole_number("--from"), arguments.whole_number("--to"));
+/// As the options ask; else for most engines 500 to 15000 rpm, and what a very slow or fast one needs.
+SpeedRange range_of(const Arguments& arguments, const EngineFile& file) {
+  constexpr double kFrom_rpm = 500, kTo_rpm = 15000, kFromOfRated = 0.25, kLeastToOfRated = 2, kMostToOfRated = 20;
+  double from_rpm = kFrom_rpm, to_rpm = kTo_rpm;
+  if (file.has("engine")) {
+    const double rated_rpm = file.rated_rpm();
+    from_rpm = std::max(1.0, std::min(from_rpm, kFromOfRated * rated_rpm));
+    to_rpm = std::max(std::min(to_rpm, kMostToOfRated * rated_rpm), kLeastToOfRated * rated_rpm);
+  }
+  const auto rpm = [&](const char* option, double usual_rpm) {
+    return arguments.has(option) ? arguments.whole_number(option) : static_cast<int>(std::lround(usual_rpm));
+  };
+  const SpeedRange range = speed_range(rpm("--from", from_rpm), rpm("--to", std::min(to_rpm, kMostRpm)));
   if (range.from_rpm >= range.to_rpm) throw UsageError("--from must be less than --to");
   return range;
 }
@@ -53,7 +66,7 @@ Sweep sweep_following(const Redline& redline, const std::function<void()>& after
 
 /// Of the train as the file has it.
 Summary figures_of_redline(const Arguments& arguments, const EngineFile& file) {
-  const SpeedRange range = range_of(arguments);
+  const SpeedRange range = range_of(arguments, file);
   const LoneValve valve(file, train_name(arguments, file));
   Redline redline{valve, range, nullptr, {}, "", limits_of(arguments, valve)};
   redline.sweeps.push_back(sweep_speeds(valve, range, 1, {}, redline.limits));
@@ -99,8 +112,8 @@ void sweep_all(Redline& redline) {
 }
 
 int run_redline(const Arguments& arguments) {
-  const SpeedRange range = range_of(arguments);
   const EngineFile file = read_engine(arguments, {});
+  const SpeedRange range = range_of(arguments, file);
   const std::string name = train_name(arguments, file);
   const LoneValve valve(file, name);
   std::optional<VariedTrains> varied;
@@ -119,8 +132,10 @@ int run_redline(const Arguments& arguments) {
 constexpr Option kRedlineOptions[] = {
     text("--train", "NAME",
          "valve train: the NAME of its [cam NAME], [rocker NAME] and [valve NAME]; default the only one of the file"),
-    whole_number("--from", "N", from(1).up_to(100000), "lowest engine speed in rpm", "500"),
-    whole_number("--to", "N", from(1).up_to(100000), "highest engine speed in rpm", "15000"),
+    whole_number("--from", "N", from(1).up_to(kMostRpm),
+                 "lowest engine speed in rpm; default 500, or a quarter of rated_rpm where that is less"),
+    whole_number("--to", "N", from(1).up_to(kMostRpm),
+                 "highest engine speed in rpm; default 15000, but 2 to 20 times rated_rpm"),
     number("--bounce-um", "H", from(1).up_to(1000), "minimum height of a bounce for its onset", "50"),
     number("--seating-m-s", "V", above(0).up_to(100), "highest permissible seating speed", "0.5"),
     number("--coil-bind-mm", "L", above(0).up_to(1000),

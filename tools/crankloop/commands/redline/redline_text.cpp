@@ -140,8 +140,10 @@ Summary summary_of(const Redline& redline) {
            brief(redline.limits.bounce_m * 1e6) + " um, or a seating speed above " + brief(redline.limits.seating_m_s) +
            " m/s; to 1 rpm, from the first speed of the sweep that has any");
   if (const std::string masked = masked_in_words(redline); !masked.empty()) s.remark(masked);
-  if (breathes(redline.valve.file().definition()))
-    s.remark("no gas force on the head: for an engine with gas exchange use `crankloop run`");
+  s.remark(gas_on_head(redline.valve));
+  if (redline.valve.valve().surge_modes == 0)
+    s.remark("springs follow the valve without surge, which lowers the onsets: surge_modes of [valve " +
+             redline.valve.train().name + "]");
   add_onset(s, "separation_onset", given.separation, redline);
   add_onset(s, "bounce_onset", given.bounce, redline);
   add_onset(s, "seating_limit", given.seating, redline);
@@ -220,12 +222,14 @@ std::string static_in_words(const Redline& redline) {
   const double above = given.rigid.crank_rad_s * kRpmPerRad_s / given.separation.speed_rpm - 1;
   char percent[40];
   std::snprintf(percent, sizeof percent, "%.1f %%", 100 * std::abs(above));
-  const char* const earlier =
-      redline.valve.valve().surge_modes > 0
-          ? " above the onset: the springs' surge and vibration unload the train earlier"
-          : " above the onset: vibration, and while closing the guide's damping, unload the train earlier";
+  const Valve& valve = redline.valve.valve();
+  std::vector<std::string> left_out{"vibration"};
+  if (valve.surge_modes > 0) left_out.emplace_back("the springs' surge");
+  if (gas_acts(redline.valve)) left_out.emplace_back("gas on the head");
+  if (valve.guide_damping_ratio > 0) left_out.emplace_back("the guide's damping");
   return rigid + "; " + percent +
-         (above > 0 ? earlier : " below the onset: vibration loads the train where the margin is least");
+         (above > 0 ? " above the onset, which has " + join(left_out, " and ") + " too"
+                    : " below the onset: vibration loads the train where the margin is least");
 }
 
 std::string text_of(const StaticRedline& rigid) {

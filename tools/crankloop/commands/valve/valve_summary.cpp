@@ -14,14 +14,6 @@ namespace {
 constexpr double kPeriodicWithin_m = 1e-6;
 constexpr double kRounding_m = 1e-15;  // of a lift in double
 
-std::string gas_remark(const LoneValve& valve) {
-  if (!(valve.valve().head_area_m2 > 0)) return "no gas force: head_area_mm2 is 0";
-  if (breathes(valve.file().definition())) return "no gas force: for an engine with gas exchange use `crankloop run`";
-  if (valve.definition().pressure.source == PressureSource::none)
-    return "no gas force: the file has no [pressure] source";
-  return "with the gas force on the head, full load";
-}
-
 /// Of rigid parts: it does not depend on the run.
 void add_margin(Summary& s, const LoneValve& valve, double speed_rpm) {
   const StaticRedline redline = valve.static_redline();
@@ -128,8 +120,8 @@ std::string circumstances(const ValveRequest& request) {
 
 std::string forces_remark(const LoneValve& valve) {
   const int modes = valve.valve().surge_modes;
-  if (modes == 0) return gas_remark(valve);
-  return gas_remark(valve) + "; springs surge, " + std::to_string(modes) + (modes == 1 ? " mode each" : " modes each");
+  if (modes == 0) return gas_on_head(valve);
+  return gas_on_head(valve) + "; springs surge, " + std::to_string(modes) + (modes == 1 ? " mode each" : " modes each");
 }
 
 template <class Real>
