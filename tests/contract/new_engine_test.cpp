@@ -204,7 +204,7 @@ TEST_F(NewEngine, GivesASlowEngineNoSofterTrainThanItsSizeHas) {
                                            ((value_of(fast, "valve_g") + value_of(fast, "spring_g") / 3) / 1e3));
   EXPECT_NEAR(frequency_rad_s / (9000 / 2 * 2 * 3.14159265358979 / 60), 40, 0.1);  // turns of the cam
 
-  // Full load presses a closed valve into its seat by less than a tenth of a millimetre.
+  // Full load presses a closed valve into its seat by less than a fifth of a millimetre.
   for (const std::vector<std::string>& engine :
        {options,
         {"--cylinders", "6", "--bore-mm", "126", "--stroke-mm", "155", "--type", "diesel", "--rated-rpm", "1000"}}) {

@@ -177,6 +177,12 @@ TEST_F(Unusual, ARangeIsToldInTheUnitOfTheFileForAnEngineOfThisSize) {
   expect_only(sample_.with("net_mep_kPa", "10"), "net_mep_kPa", "net_mep_kPa = 10 is unusual; usual: 150 to 4000 kPa");
 }
 
+TEST_F(Unusual, CylindersOfABankThatOverlapAreTold) {
+  expect_only(sample_.with("cylinder_spacing_mm", "60"), "cylinder_spacing_mm",
+              "cylinders 1 and 2 of one bank are 60 mm apart, less than a bore");
+  EXPECT_TRUE(warnings(sample_.with("cylinder_spacing_mm", "100")).empty());
+}
+
 /// 250 N of preload by 500 N/mm is half a millimetre.
 TEST_F(Unusual, ATrainThatItsSpringCompressesFarIsTold) {
   const Engine soft = sample_.with("spring_preload_N", "250").with("train_N_per_mm", "500");

@@ -8,14 +8,23 @@ namespace crankloop::program {
 
 void set_fuel_mg(GasOrder& order, double fuel_mg) { order.fuel_kg = millionths(fuel_mg), order.excess_air_ratio = 0; }
 
-GasOrder lambda_and_spark(const Arguments& arguments, const EngineFile& engine) {
-  const Gas& gas = engine.definition().gas;
-  GasOrder order = gas_order(gas);
-  if (arguments.has(kFuel.name) && arguments.has(kLambda.name))
-    throw UsageError("--fuel-mg and --lambda both say how much fuel: give one of them");
+namespace {
+
+/// The file's, with lambda and burn of the command line as they stand there.
+GasOrder lambda_and_spark_given(const Arguments& arguments, const EngineFile& engine) {
+  GasOrder order = gas_order(engine.definition().gas);
   if (arguments.has(kLambda.name)) order.excess_air_ratio = arguments.number(kLambda.name), order.fuel_kg = 0;
   if (arguments.has(kBurnStart.name)) order.burn_start_deg = arguments.number(kBurnStart.name);
-  const double end_deg = order.burn_start_deg + order.burn_duration_deg * gas.span_ratio();
+  return order;
+}
+
+}  // namespace
+
+GasOrder lambda_and_spark(const Arguments& arguments, const EngineFile& engine) {
+  if (arguments.has(kFuel.name) && arguments.has(kLambda.name))
+    throw UsageError("--fuel-mg and --lambda both say how much fuel: give one of them");
+  const GasOrder order = lambda_and_spark_given(arguments, engine);
+  const double end_deg = order.burn_start_deg + order.burn_duration_deg * engine.definition().gas.span_ratio();
   if (end_deg > kLatestBurn_deg) {
     throw UsageError("--burn-start-deg: the burn would end at " + brief(end_deg) + " deg; it must end by " +
                      brief(kLatestBurn_deg) + " deg");
@@ -48,10 +57,8 @@ GasOrder gas_order(const Arguments& arguments, const EngineFile& engine, double 
 }
 
 std::vector<std::string> warnings_about_gas_options(const Arguments& arguments, const EngineFile& engine) {
-  GasOrder order = gas_order(engine.definition().gas);
+  GasOrder order = lambda_and_spark_given(arguments, engine);
   if (arguments.has(kFuel.name)) set_fuel_mg(order, arguments.number(kFuel.name));
-  if (arguments.has(kLambda.name)) order.excess_air_ratio = arguments.number(kLambda.name);
-  if (arguments.has(kBurnStart.name)) order.burn_start_deg = arguments.number(kBurnStart.name);
   return warnings_about_order(engine, order);
 }
 

@@ -131,6 +131,23 @@ void look_at_values(const EngineFile& engine, EngineSize size, bool metres, Warn
   }
 }
 
+/// A spacing between the cylinders of a boxer is less than a bore, but not within a bank.
+void look_at_spacing(const EngineFile& engine, const EngineSize& size, Warnings& warnings) {
+  if (!size.bore_mm || !engine.has("layout") || !engine.section("layout").has("cylinder_spacing_mm")) return;
+  const Layout& layout = engine.definition().layout;
+  const int line = engine.section("layout").line_of("cylinder_spacing_mm");
+  for (std::size_t k = 0; k < static_cast<std::size_t>(layout.cylinders); ++k) {
+    for (std::size_t other = 0; other < k; ++other) {
+      const double apart_mm = 1e3 * std::abs(layout.position_m[k] - layout.position_m[other]);
+      if (layout.bank_deg[k] != layout.bank_deg[other] || apart_mm >= *size.bore_mm) continue;
+      warnings.add(line, "cylinder_spacing_mm: cylinders " + std::to_string(other + 1) + " and " +
+                             std::to_string(k + 1) + " of one bank are " + brief(apart_mm) +
+                             " mm apart, less than a bore");
+      return;
+    }
+  }
+}
+
 /// In degrees of cylinder 1's cycle, with the dead centre of gas exchange at 360.
 constexpr Interval kIntakeFullLiftDeg{380, 560};
 constexpr Interval kExhaustFullLiftDeg{160, 340};
@@ -426,6 +443,7 @@ std::vector<std::string> warnings_about(const EngineFile& engine) {
     look_at_diagram(engine, warnings);
   }
   look_at_values(engine, size, metres, warnings);
+  if (!metres) look_at_spacing(engine, size, warnings);
   look_at_cams(engine, warnings);
   look_at_measured_cams(engine, size, warnings);
   look_at_soft_trains(engine, warnings);
