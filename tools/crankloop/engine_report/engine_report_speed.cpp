@@ -11,9 +11,9 @@ namespace {
 using report::Plot;
 using report::Series;
 
-constexpr int kSpeeds = 26;
-constexpr double kFrom = 0.2;  ///< of the larger of rated speed and the run's
-constexpr double kTo = 1.2;
+constexpr int kLoadSpeeds = 26;
+constexpr double kLoadFrom = 0.2;  ///< of the larger of rated speed and the run's
+constexpr double kLoadTo = 1.2;
 constexpr double kStep_deg = 2;
 
 }  // namespace
@@ -26,8 +26,8 @@ report::Section speed_section(const ReportInput& input) {
       {"crank pin", {}, {}, {}}, {"rod, pushed", {}, {}, {}}, {"rod, pulled", {}, {}, {}}, {"side", {}, {}, {}}};
   Plot torque = plot_of("Torque of the engine", axis_of("Engine speed", "rpm"), axis_of("Torque", "Nm"));
   torque.series = {{"largest", {}, {}, {}}, {"smallest", {}, {}, {}}, {"mean", {}, {}, {}}};
-  for (int i = 0; i < kSpeeds; ++i) {
-    const double rpm = high_rpm * (kFrom + (kTo - kFrom) * i / (kSpeeds - 1));
+  for (int i = 0; i < kLoadSpeeds; ++i) {
+    const double rpm = high_rpm * (kLoadFrom + (kLoadTo - kLoadFrom) * i / (kLoadSpeeds - 1));
     const double speed_rad_s = rpm * kRad_sPerRpm;
     double most[4] = {};
     double largest_Nm = -1e300;

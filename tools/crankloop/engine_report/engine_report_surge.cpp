@@ -18,9 +18,9 @@ namespace {
 using report::Plot;
 using report::Series;
 
-constexpr int kSpeeds = 181;
-constexpr double kFrom = 0.3;  ///< of the larger of rated speed and the run's
-constexpr double kTo = 1.2;
+constexpr int kSurgeSpeeds = 181;
+constexpr double kSurgeFrom = 0.3;  ///< of the larger of rated speed and the run's
+constexpr double kSurgeTo = 1.2;
 constexpr double kCamPerCrank = 0.5;  ///< turns
 constexpr int kHarmonics = 8;
 constexpr double kPeakOver = 1.15;  ///< what a marked peak exceeds its neighbourhood by
@@ -51,7 +51,7 @@ Plot campbell_plot(const std::string& name, const Valve& valve, double high_rpm)
                    : i == 0   ? "outer, "
                               : "inner, ") +
                       std::string("mode ") + std::to_string(n),
-                  {kFrom * high_rpm, kTo * high_rpm},
+                  {kSurgeFrom * high_rpm, kSurgeTo * high_rpm},
                   {n * first_Hz, n * first_Hz}};
       mode.style.colour = i + 1;
       mode.style.bold = true;
@@ -59,9 +59,9 @@ Plot campbell_plot(const std::string& name, const Valve& valve, double high_rpm)
     }
   }
   // From the harmonic that meets the first mode at the highest speed on: those of higher orders are small.
-  const int first = std::max(1, static_cast<int>(std::ceil(lowest_Hz / cam_Hz(kTo * high_rpm))));
+  const int first = std::max(1, static_cast<int>(std::ceil(lowest_Hz / cam_Hz(kSurgeTo * high_rpm))));
   for (int n = first; n < first + kHarmonics; ++n) {
-    Series harmonic{ordinal(n), {kFrom * high_rpm, kTo * high_rpm}, {}};
+    Series harmonic{ordinal(n), {kSurgeFrom * high_rpm, kSurgeTo * high_rpm}, {}};
     for (const double rpm : harmonic.x) harmonic.y.push_back(n * cam_Hz(rpm));
     harmonic.style.colour = 4;
     harmonic.style.dashed = true;
@@ -96,13 +96,13 @@ Plot force_plot(const std::string& name, const Valve& valve, const ValveLift& li
   Series surge{"largest surge force", {}, {}, {}}, preload{"preload", {}, {}, {}};
   const LiftSlopes slopes(lift);
   double first_Hz = 0;
-  for (int i = 0; i < kSpeeds; ++i) {
-    const double rpm = high_rpm * (kFrom + (kTo - kFrom) * i / (kSpeeds - 1));
+  for (int i = 0; i < kSurgeSpeeds; ++i) {
+    const double rpm = high_rpm * (kSurgeFrom + (kSurgeTo - kSurgeFrom) * i / (kSurgeSpeeds - 1));
     const SpringSurgeCycle cycle = surge_over_cycle(slopes, valve, 2 * kPi * cam_Hz(rpm));
     first_Hz = cycle.frequency_Hz;
     surge.x.push_back(rpm), surge.y.push_back(cycle.largest_N);
   }
-  preload.x = {kFrom * high_rpm, kTo * high_rpm};
+  preload.x = {kSurgeFrom * high_rpm, kSurgeTo * high_rpm};
   preload.y = {valve.spring_preload_N, valve.spring_preload_N};
   preload.style.dashed = true;
   plot.series = {std::move(surge), std::move(preload)};
