@@ -52,6 +52,11 @@ std::optional<Gap> widest_gap(const std::vector<double>& angles_deg, double leas
   return gap;
 }
 
+std::string gap_in_words(const Gap& gap) {
+  return "no row between " + brief(gap.from_deg) + " and " + brief(gap.to_deg) + " deg, where others are " +
+         brief(gap.usual_deg) + " deg apart";
+}
+
 std::string row_in_words(const MeasuredRows& rows, std::size_t row) {
   return brief(rows.points[row].cam_deg) + " deg (" + rows.path + ":" + std::to_string(rows.lines[row]) + ")";
 }

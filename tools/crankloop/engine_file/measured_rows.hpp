@@ -38,6 +38,9 @@ struct Gap {
 /// The widest step of rising angles; none up to `least_deg` or five times the median.
 [[nodiscard]] std::optional<Gap> widest_gap(const std::vector<double>& angles_deg, double least_deg);
 
+/// "no row between 10 and 40 deg, where others are 2 deg apart".
+[[nodiscard]] std::string gap_in_words(const Gap& gap);
+
 /// "10 deg (cam.csv:31)".
 [[nodiscard]] std::string row_in_words(const MeasuredRows& rows, std::size_t row);
 

@@ -1,6 +1,6 @@
 // The usual range of each key of the engine file, in the file's unit: a value in a wrong unit lies outside.
 //
-// What belongs here: the table and its reference quantities. What does not: checks of several keys (plausibility.cpp),
+// What belongs here: the table and its reference quantities. What does not: checks of several keys (plausibility),
 // permitted ranges (engine_file_key_list.hpp).
 #pragma once
 
