@@ -236,10 +236,29 @@ TEST_F(NewEngine, WarnsOfAPressureThatNoEngineHas) {
     if (gas) words.emplace_back("--gas");
     const Answer answer = run(words);
     EXPECT_EQ(answer.status, 0);
-    EXPECT_NE(answer.error.find("the largest pressure at full load is 28000 kPa; usual: up to 25000 kPa"),
+    EXPECT_NE(answer.error.find("the largest pressure is 28000 kPa; usual at full load: up to 25000 kPa"),
               std::string::npos)
         << answer.error;
   }
+}
+
+/// Boost is the file's ambient pressure, which compression works against at standstill too.
+TEST_F(NewEngine, AStarterTurnsABoostedEngineOver) {
+  const std::vector<std::string> words{"--cylinders", "6",      "--bore-mm", "144",  "--stroke-mm",
+                                       "165",         "--type", "diesel",    "--gas"};
+  const double plain_Nm = value_of(made(words), "stall_Nm");
+  std::vector<std::string> boosted = words;
+  boosted.insert(boosted.end(), {"--boost", "3.5"});
+  std::vector<std::string> command = boosted;
+  command.insert(command.begin(), "new");
+  const Answer answer = run(command);
+  EXPECT_NE(answer.error.find("--boost 3.5: what is assumed was compared with engines of up to 2.4"), std::string::npos)
+      << answer.error;
+  EXPECT_NEAR(value_of(answer.out, "stall_Nm") / plain_Nm, 3.5, 0.01);
+  write("engine.ini", answer.out);
+  const Answer start = run({"run", path_, "--free", "--starter", "--seconds", "3"});
+  EXPECT_NE(start.out.find("\nreversals = 0\n"), std::string::npos) << start.out;
+  EXPECT_EQ(start.out.find("no whole cycle"), std::string::npos) << start.out;
 }
 
 TEST_F(NewEngine, SaysItsCrankshaftAsShowDoes) {
@@ -315,6 +334,7 @@ TEST_F(NewEngine, RefusesWhatMakesNoEngine) {
   refused(four, {"--firing-angles-deg", "0,540,180"}, "crankloop new: firing_angles_deg");
   refused(four, {"--net-mep-kPa", "-900"}, "--net-mep-kPa");
   refused(four, {"--net-mep-kPa", "90000"}, "crankloop new: net_mep_kPa");
+  refused(four, {"--net-mep-kPa", "600", "--gas"}, "--net-mep-kPa: with --gas the fuel of a spark-ignition engine");
   for (const char* name : {"a # b", "# b", " # b"})
     refused(four, {"--name", name}, "--name: a # at the start or behind a blank starts a comment");
   refused(four, {"--name", "  "}, "--name: the value is missing");

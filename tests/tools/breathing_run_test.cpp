@@ -270,6 +270,8 @@ TEST_F(BreathingRun, TakesItsFuelByItsAirAtAnyThrottle) {
   EXPECT_NEAR(at("excess_air_ratio", kFour, 3000, {"--throttle", "0.1"}), 1, 1e-5) << "the file's";
   const std::string rich = run({kFour, "--rpm", "3000", "--throttle", "0.1", "--fuel-mg", "30"});
   EXPECT_NE(rich.find("so rich a mixture does not ignite"), std::string::npos) << rich;
+  EXPECT_NE(rich.find("a real engine loses torque below a lambda of 0.9"), std::string::npos) << rich;
+  EXPECT_EQ(run({kFour, "--rpm", "3000", "--lambda", "0.95"}).find("loses torque"), std::string::npos);
   const std::string lean = run({kFour, "--rpm", "3000", "--lambda", "3"});
   EXPECT_NE(lean.find("so lean a mixture of gasoline does not ignite"), std::string::npos) << lean;
   const std::string diesel = run({kEngines + "diesel_495_gas.ini", "--rpm", "1000", "--lambda", "3"});

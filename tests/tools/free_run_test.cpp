@@ -150,6 +150,48 @@ TEST_F(FreeRunCommand, BooksTheWorkOfAnEngineThatMisfires) {
   EXPECT_EQ(contents(report).find("independently of the simulation loop"), std::string::npos);
 }
 
+TEST_F(FreeRunCommand, SaysThatCyclesWhichAreCutCountAsTheRuleHasThem) {
+  const std::vector<std::string> words{kSample,     "--free", "--from-rpm", "1500",
+                                       "--seconds", "1",      "--misfire",  "cylinder=2 every=3"};
+  const std::string remark = "by the rule: cycles that were cut count too";
+  EXPECT_EQ(run(words).find(remark), std::string::npos);
+  std::vector<std::string> cut = words;
+  cut.insert(cut.end(), {"--cut", "2"});
+  EXPECT_NE(run(cut).find("cylinder_2_misfires = 4  # " + remark), std::string::npos) << run(cut);
+}
+
+/// 10 Nm move nothing, 80 against gas compress a cylinder and are turned back.
+TEST_F(FreeRunCommand, SaysThatAStarterIsTooWeak) {
+  const std::string remark = "the starter does not turn the engine over: [starter] stall_Nm is too small";
+  const std::pair<const char*, const char*> weak[] = {{kSample, "10"},
+                                                      {CRANKLOOP_SOURCE_DIR "/tools/engines/diesel_495_gas.ini", "80"}};
+  for (const auto& [sample, torque_Nm] : weak) {
+    std::string text = contents(sample);
+    const std::size_t at = text.find("stall_Nm");
+    text.replace(at, text.find('\n', at) - at, std::string("stall_Nm = ") + torque_Nm);
+    std::ofstream(path("weak.ini")) << text;
+    const std::string summary = run({path("weak.ini"), "--free", "--starter", "--seconds", "1"});
+    EXPECT_NE(summary.find(remark), std::string::npos) << summary;
+  }
+  EXPECT_EQ(run({kSample, "--free", "--seconds", "1"}).find(remark), std::string::npos);
+  EXPECT_EQ(run({kSample, "--free", "--starter", "--seconds", "0.01"}).find(remark), std::string::npos);
+}
+
+TEST_F(FreeRunCommand, WarnsOfAFaultThatBeginsAfterTheEnd) {
+  std::ofstream(path("late.ini")) << contents(kSample)
+                                  << "[fault x]\ntrigger = crank\nstuck = low\nstart_s = 2\nend_s = 3\n";
+  const std::vector<std::string> words{path("late.ini"), "--free", "--from-rpm", "1500", "--seconds"};
+  const auto warned = [&](const char* seconds) {
+    std::vector<std::string> all = words;
+    all.emplace_back(seconds);
+    testing::internal::CaptureStderr();
+    run(all);
+    return testing::internal::GetCapturedStderr();
+  };
+  EXPECT_NE(warned("1").find("[fault x] begins at 2 s, after the end of --seconds 1"), std::string::npos);
+  EXPECT_EQ(warned("2.1"), "");
+}
+
 /// Twice the same brake: of the options, and of a controller's input.
 TEST_F(FreeRunCommand, CountsAnExternalTorqueAsLoad) {
   std::ofstream(path("in.csv")) << "time_s,external_torque_Nm\n0,50\n9,50\n";

@@ -198,8 +198,37 @@ TEST_F(Unusual, APressureThatNoEngineHasIsTold) {
   const std::vector<std::string> told =
       warnings(sample_.with("compression_ratio", "26").with("net_mep_kPa", "3950").with("intake_kPa", "250"));
   ASSERT_EQ(told.size(), 1u);
-  EXPECT_NE(told[0].find("the largest pressure at full load is "), std::string::npos) << told[0];
-  EXPECT_NE(told[0].find(" kPa; usual: up to 25000 kPa"), std::string::npos) << told[0];
+  EXPECT_NE(told[0].find("the largest pressure is "), std::string::npos) << told[0];
+  EXPECT_NE(told[0].find(" kPa; usual at full load: up to 25000 kPa"), std::string::npos) << told[0];
+}
+
+TEST_F(Unusual, AnExhaustInTheWrongUnitIsTold) {
+  const Engine gas(bad_input::contents(CRANKLOOP_SOURCE_DIR "/tools/engines/four_2000.ini"));
+  const Engine in_bar = gas.changed("[gas]", "[gas]\nback_kPa = 1.05");
+  expect_only(in_bar, "back_kPa", "back_kPa = 1.05 is unusual; usual: 40 to 600 kPa");
+}
+
+TEST_F(Unusual, AFaultThatChangesNothingIsTold) {
+  const Engine faulty = sample_.plus("[fault x]").plus("trigger = crank").plus("end_s = 1");
+  expect_only(faulty, "[fault x]", "[fault x] says when, and not what: the signal stays healthy");
+  EXPECT_TRUE(warnings(faulty.plus("late_deg = 1")).empty());
+  const std::pair<const char*, const char*> together[] = {{"moved_deg = 1", "moved_tooth = 3"},
+                                                          {"moved_tooth = 3", "moved_deg = 1"},
+                                                          {"extra_tooth_deg = 8", "extra_width_deg = 1"},
+                                                          {"runout_at_deg = 8", "runout_deg = 0.1"},
+                                                          {"noise_pulse_us = 8", "noise_Hz = 10"}};
+  for (const auto& [alone, other] : together) {
+    const std::string key = std::string(alone).substr(0, std::string(alone).find(' '));
+    const std::string needed = std::string(other).substr(0, std::string(other).find(' '));
+    expect_only(faulty.plus(alone), key, key + " does nothing without " + needed);
+    EXPECT_TRUE(warnings(faulty.plus(alone).plus(other)).empty()) << alone << ", " << other;
+  }
+}
+
+TEST_F(Unusual, AToothRatioOfAWheelWithItsOwnWidthsIsTold) {
+  const Engine wheel = sample_.plus("[trigger k]").plus("on = crank").plus("pattern = honda-k");
+  EXPECT_TRUE(warnings(wheel).empty());
+  expect_only(wheel.plus("tooth_ratio = 0.21"), "tooth_ratio = 0.21", "tooth_ratio does nothing: pattern = honda-k");
 }
 
 TEST_F(Unusual, FullLiftOnTheOtherTurnIsTold) {

@@ -360,6 +360,31 @@ TEST_F(RunCommand, PrintsThe495AtItsRatedSpeed) {
   }
 }
 
+/// Against traces whose angles are half a degree too small and too large.
+TEST_F(RunCommand, SaysWhatADegreeOfATracesAnglesCosts) {
+  const std::string sample = contents(kSample);
+  const auto run_of = [&](double later_deg) {
+    IndicatorDiagram diagram;
+    const EngineFile file = read_engine_file(kSample, {});
+    EXPECT_TRUE(diagram.init(file.definition().crank, file.definition().pressure).ok());
+    std::ofstream trace(path("trace.csv"));
+    trace << "crank_deg,pressure_kPa\n";
+    for (double deg = 0; deg < 720; deg += 0.25) {
+      const double true_deg = deg - later_deg < 0 ? deg - later_deg + 720 : deg - later_deg;
+      trace << deg << ',' << shortest(diagram.full_Pa(true_deg) / 1e3) << '\n';
+    }
+    trace.close();
+    std::string text = sample;
+    const std::string source = "source = wiebe";
+    text.replace(text.find(source), source.size(), "source = angle_table\nfile = trace.csv");
+    std::ofstream(path("trace.ini")) << text;
+    return run({path("trace.ini"), "--cycles", "1"});
+  };
+  const double difference_kPa = line(run_of(0.5), "net_mep_exact").first - line(run_of(-0.5), "net_mep_exact").first;
+  EXPECT_NEAR(line(run_of(0), "net_mep_per_degree").first / difference_kPa, 1, 2e-3);
+  EXPECT_EQ(run({kSample, "--cycles", "1"}).find("net_mep_per_degree"), std::string::npos);
+}
+
 TEST_F(RunCommand, SaysThatAnEngineWithoutPressureHasInertiaOnly) {
   const std::string summary = run({engine_without_pressure(), "--report", path("report.html")});
   EXPECT_NE(summary.find("inertia only"), std::string::npos);

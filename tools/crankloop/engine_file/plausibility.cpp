@@ -52,6 +52,7 @@ std::vector<std::string> warnings_about(const EngineFile& engine) {
   if (!metres) look_at_spacing(engine, size, warnings);
   look_at_trains(engine, size, warnings);
   look_at_gas(engine, size, warnings);
+  look_at_signals(engine, warnings);
   return warnings.lines();
 }
 

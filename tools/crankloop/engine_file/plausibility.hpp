@@ -14,7 +14,7 @@ namespace crankloop::program {
 /// One line each: "FILE:LINE: warning: what is unusual; what is usual".
 [[nodiscard]] std::vector<std::string> warnings_about(const EngineFile& engine);
 
-/// Of a cylinder at full load: what is unusual about its largest pressure; "" where nothing is.
+/// Of a cylinder: what is unusual about its largest pressure; "" where nothing is.
 [[nodiscard]] std::string unusual_peak(double peak_Pa);
 
 /// Warnings about fuel and spark of the command line, where they are not the file's.

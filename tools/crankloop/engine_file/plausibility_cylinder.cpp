@@ -66,7 +66,7 @@ void look_at_trace(const Pressure& pressure, int line, Warnings& warnings) {
 std::string unusual_peak(double peak_Pa) {
   constexpr double kMost_kPa = 25000;  // of diesels with high boost
   if (peak_Pa / 1e3 <= kMost_kPa) return "";
-  return "the largest pressure at full load is " + about(peak_Pa / 1e3) + " kPa; usual: up to " + brief(kMost_kPa) +
+  return "the largest pressure is " + about(peak_Pa / 1e3) + " kPa; usual at full load: up to " + brief(kMost_kPa) +
          " kPa: are compression ratio, boost and mean effective pressure those of one engine?";
 }
 

@@ -60,4 +60,7 @@ void look_at_trains(const EngineFile& engine, const EngineSize& size, Warnings& 
 /// Mixture, runners and the burn; nothing without gas exchange.
 void look_at_gas(const EngineFile& engine, const EngineSize& size, Warnings& warnings);
 
+/// Trigger wheels and their faults.
+void look_at_signals(const EngineFile& engine, Warnings& warnings);
+
 }  // namespace crankloop::program

@@ -169,7 +169,7 @@ std::string describe_patterns() {
       "  60-2               of 60 places the last two are empty; first_tooth_deg is the tooth after the gap\n"
       "  13(2)16(2)1(2)     teeth and (missing) in turn\n"
       "  36-2-2-2           13(2)16(2)1(2), of four-cylinder engines; 36-2-2-2-H6: 19(2)10(2)1(2), of six\n"
-      "  half-moon          a tooth over half the turn\n\n"
+      "  half-moon          one tooth, over half the turn where tooth_ratio is 0.5\n\n"
       "or the name of a pair in use, both for the wheel `on = crank` and for the one on a cam, each with its "
       "first_tooth_deg. A tooth is\n"
       "RISE+WIDTH in crank degrees after the first one's rising edge, RISE+WIDTHxCOUNT/STEP several alike. Widths are "

@@ -49,6 +49,7 @@ constexpr UsualRange kRanges[] = {
     {"gas", "outlet_mm2", Per::displacement, {0.05, 15}},
     {"gas", "ambient_kPa", Per::one, {40, 500}},
     {"gas", "ambient_C", Per::one, {-50, 70}},
+    {"gas", "back_kPa", Per::one, {40, 600}, kOrZero},
     {"gas", "exhaust_C", Per::one, {50, 1200}},
     {"gas", "wall_C", Per::one, {0, 400}},
     {"gas", "wall_heat_factor", Per::one, {0.2, 5}, kOrZero},

@@ -93,7 +93,7 @@ std::string exhaust_heat_left_out(const EngineDefinition& engine) {
 /// A diesel, whose fuel burns by two laws, has no leanest mixture.
 std::string remark_on_lambda(const Gas& gas, double lambda) {
   if (lambda > 0 && lambda < kRichestThatIgnites)
-    return "lambda: so rich a mixture does not ignite; with --lambda fuel follows the air";
+    return "lambda: so rich a mixture does not ignite; here it burns, with all its air";
   if (lambda > kLeanestThatIgnites && !(gas.second_ratio > 0))
     return "lambda: so lean a mixture of gasoline does not ignite; here all of it burns";
   return "lambda; 0: no fuel";
@@ -110,21 +110,31 @@ std::string remark_on_walls(const Walls& walls, const GasFigures& figures) {
          " K: for a warm engine set wall_C = " + brief(std::round(end_K - kZeroCelsius_K));
 }
 
+/// What the fuel's figure is of, and what of a real engine is not in it.
+std::string remark_on_fuel(const EngineDefinition& engine, double lambda) {
+  constexpr double kBestTorque = 0.9;  // Heywood, Internal Combustion Engine Fundamentals (1988), section 15.3: 1/1.1
+  std::string remark = "of a cylinder's cycle";
+  if (lambda > 0 && lambda < 1) remark += "; of a rich mixture the excess gives no heat";
+  if (lambda > 0 && lambda < kBestTorque) remark += ", and a real engine loses torque below a lambda of 0.9";
+  const Misfire* const end = engine.misfires + engine.layout.cylinders;
+  if (std::any_of(engine.misfires, end, [](const Misfire& rule) { return rule.pattern != MisfirePattern::none; }))
+    remark += "; fuel that misfires is not in it";
+  return remark;
+}
+
 void add_gas(Summary& s, const EngineDefinition& engine, const GasFigures& figures) {
   const GasCycle<double>& cycle = figures.cycle;
   s.line("pumping_mep", cycle.pumping_mep_Pa / 1e3, "kPa", "from 180 to 540 deg; negative: a loss");
   s.line("volumetric_efficiency", cycle.volumetric_efficiency, "",
          "air through the intake, by the file's ambient density");
   s.line("trapped_air", cycle.trapped_air_kg * 1e6, "mg",
-         cycle.trapped_kg > 0 ? "in a cylinder when its intake closed" : "the intake did not close before the burn");
+         cycle.trapped_kg > 0 ? "in a cylinder when its intake closed" : "no intake closed before a burn");
   s.line("residual_ratio", cycle.residual_ratio, "",
          std::string("burned share of the trapped mass") +
              (cycle.residual_ratio > kMaxResidualThatBurns && cycle.heat_J > 0
                   ? "; so much makes a real engine misfire, here all fuel burns"
                   : ""));
-  const bool rich = cycle.excess_air_ratio > 0 && cycle.excess_air_ratio < 1;
-  s.line("fuel_burned", cycle.fuel_kg * 1e6, "mg",
-         rich ? "of a cylinder's cycle; of a rich mixture the excess gives no heat" : "of a cylinder's cycle");
+  s.line("fuel_burned", cycle.fuel_kg * 1e6, "mg", remark_on_fuel(engine, cycle.excess_air_ratio));
   if (const double unburned = unburned_kg(engine.gas, figures); unburned > 0)
     s.line("fuel_unburned", unburned * 1e6, "mg",
            "found no air beside that in crevices; the exhaust's lambda lacks it");

@@ -106,8 +106,10 @@ void add_what_turns_it(Draft& draft, const IndicatorDiagram& diagram, Numbers& n
                    brief(to_three_digits(n.brake_Nm * n.rated_rpm * kRad_sPerRpm / 1e3)) + " kW" +
                    (n.gas ? "; `run` prints what [gas] gives" : ""));
   draft.section("starter");
-  draft.assume("stall_Nm", to_three_digits(kStarterNmPerLitre * n.displacement_L / std::sqrt(n.cylinders)),
-               "by displacement");
+  const bool is_boosted_at_rest = n.gas && n.is_boosted();
+  const double compressed = is_boosted_at_rest ? n.design.pressure_ratio : 1;
+  draft.assume("stall_Nm", to_three_digits(kStarterNmPerLitre * compressed * n.displacement_L / std::sqrt(n.cylinders)),
+               is_boosted_at_rest ? "by displacement and ambient_kPa, which it compresses" : "by displacement");
   draft.assume("no_load_rpm", 400, "usual");
 }
 

@@ -57,7 +57,8 @@ void add_gas_exchange(Draft& draft, const Numbers& n) {
   rounded("throttle_closed_mm2", usual.throttle_closed_mm2, spark ? "leakage, for idling" : "a diesel has no throttle");
   rounded("outlet_mm2", usual.outlet_mm2,
           "the exhaust system as one orifice: " + shortest(kOutletPerInlet) + " of throttle_mm2");
-  rounded("ambient_kPa", 100 * n.design.pressure_ratio, n.is_boosted() ? "behind the compressor" : "sea level");
+  rounded("ambient_kPa", 100 * n.design.pressure_ratio,
+          n.is_boosted() ? "behind the compressor at full load, and here at standstill too" : "sea level");
   if (n.is_boosted()) rounded("back_kPa", 100 * n.design.pressure_ratio, "before the turbine: that of the intake");
   draft.assume("ambient_C", n.is_boosted() ? 50 : 25,
                n.is_boosted() ? "behind the charge cooler" : "of the air it draws in");

@@ -57,9 +57,25 @@ void require_bore_for_gas(double bore_mm) {
                      " is out of range with --gas; allowed: " + describe(kBore_mm, ""));
 }
 
+/// What a spark-ignition engine with gas exchange burns follows from its air.
+void refuse_mep_of_air(const Arguments& arguments) {
+  if (!arguments.has("--gas") || !arguments.has("--net-mep-kPa") || arguments.text("--type") != "si") return;
+  throw UsageError(
+      "--net-mep-kPa: with --gas the fuel of a spark-ignition engine follows its air, and `run` prints what "
+      "that gives; leave it out, or --gas");
+}
+
+/// Real engines that tests hold what is assumed against have up to 2.4.
+std::string unusual_boost(double pressure_ratio) {
+  constexpr double kMost = 2.4;
+  if (pressure_ratio <= kMost) return "";
+  return "--boost " + brief(pressure_ratio) + ": what is assumed was compared with engines of up to " + brief(kMost);
+}
+
 int run_new(const Arguments& arguments) {
   require_name(arguments.text("--name"));
   if (arguments.has("--gas")) require_bore_for_gas(arguments.number("--bore-mm"));
+  refuse_mep_of_air(arguments);
   const std::string& type = arguments.text("--type");
   Numbers n;
   n.design.type = type == "si"       ? EngineType::spark_ignition
@@ -97,8 +113,10 @@ int run_new(const Arguments& arguments) {
       rest.text();
   const EngineFile engine = read_draft(text);
   tell_warnings(arguments, warnings_about(engine));
-  if (const std::string unusual = unusual_peak(estimate->peak_Pa()); n.gas && !unusual.empty())
-    tell_warnings(arguments, {std::string(kCommand) + ": warning: " + unusual});
+  const std::string unusual[] = {n.gas ? unusual_peak(estimate->peak_Pa()) : "",
+                                 unusual_boost(n.design.pressure_ratio)};
+  for (const std::string& what : unusual)
+    if (!what.empty()) tell_warnings(arguments, {std::string(kCommand) + ": warning: " + what});
   print(text);
   return kSuccess;
 }

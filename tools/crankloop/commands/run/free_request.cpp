@@ -81,6 +81,21 @@ void require_options_that_fit(const Arguments& arguments) {
     throw UsageError("--cycles is for a run at constant speed; with --free take --seconds");
 }
 
+/// Faults switched by time alone, after the end.
+std::vector<std::string> warnings_about_late_faults(const EngineFile& file, double seconds) {
+  std::vector<std::string> warnings;
+  std::size_t fault = 0;
+  for (const SectionValues& section : file.sections()) {
+    if (section.kind != "fault") continue;
+    const WheelFault& when = file.definition().wheel_faults[fault++];
+    if (when.input_bit >= 0 || when.start_s < seconds) continue;
+    warnings.push_back(file.path() + ":" + std::to_string(section.line_of("start_s")) + ": warning: " +
+                       section.title() + " begins at " + brief(when.start_s) + " s, after the end of --seconds " +
+                       brief(seconds));
+  }
+  return warnings;
+}
+
 int run_free_by(const Arguments& arguments, const EngineFile& file, const GasOrder& gas,
                 std::vector<std::string> warnings) {
   const EngineDefinition definition = loaded(file, arguments);
@@ -110,7 +125,8 @@ int run_free_by(const Arguments& arguments, const EngineFile& file, const GasOrd
       request.operation.schedule ? warnings_about_inputs(*request.operation.schedule, gas.excess_air_ratio)
                                  : std::vector<std::string>{};
   for (const auto& lines : {warnings_about_running_free(file, definition), warnings_about_sensor_faults_left_out(file),
-                            of_inputs, warnings_about_gas(file, 0, request.operation.tick_s)}) {
+                            warnings_about_late_faults(file, request.operation.seconds), of_inputs,
+                            warnings_about_gas(file, 0, request.operation.tick_s)}) {
     for (std::string& line : tell_warnings(arguments, lines)) warnings.push_back(std::move(line));
   }
   request.warnings = std::move(warnings);

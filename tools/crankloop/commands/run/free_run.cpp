@@ -166,9 +166,14 @@ FreeFigures run_ticks(const EngineFile& file, const EngineDefinition& definition
   return figures;
 }
 
-void add_cycle(Summary& s, const FreeFigures& f) {
+void add_cycle(Summary& s, const FreeFigures& f, bool is_started) {
   if (f.cycles.empty()) {
     s.remark("no whole cycle of 720 deg was turned forward: no irregularity, no harmonics");
+    constexpr double kStarts_s = 0.2;
+    constexpr double kStands_rad_s = 2;
+    if (is_started && f.end.time_s >= kStarts_s && std::fabs(f.end.speed_rad_s) < kStands_rad_s)
+      s.remark(
+          "the starter does not turn the engine over: [starter] stall_Nm is too small for compression and friction");
     return;
   }
   const FreeCycle& cycle = f.cycles.back();
@@ -208,7 +213,7 @@ std::string summary_text(const EngineFile& file, const FreeRequest& request, con
   s.line("max_speed", f.largest_speed_rad_s * kRpmPerRad_s, "rpm",
          beyond_steps_of_gas(file.definition(), f.largest_speed_rad_s * kRpmPerRad_s, operation.tick_s));
   s.line("reversals", f.reversals);
-  add_cycle(s, f);
+  add_cycle(s, f, operation.starter || f.energy.starter_J != 0);
   if (breathes(file.definition())) {
     s.remark("the gas, of the cylinders' last whole cycles");
     s.line("net_mep", f.gas.cycle.net_mep_Pa / 1e3, "kPa");
@@ -224,10 +229,12 @@ std::string summary_text(const EngineFile& file, const FreeRequest& request, con
          f.speed_was_limited()
              ? "of the largest of these: what the speed limit took, since gas outweighs friction and load"
              : "of the largest of these");
+  const bool may_be_cut = operation.cut_cylinders != 0 || !is_given("cut_cylinders");
+  const char* const by_rule = may_be_cut ? "by the rule: cycles that were cut count too" : "";
   for (const MisfireFigures& misfire : f.misfires) {
     const std::string whose = "cylinder_" + std::to_string(misfire.cylinder + 1);
     s.line(whose + "_cycles", std::uint64_t{misfire.counts.cycles});
-    s.line(whose + "_misfires", std::uint64_t{misfire.counts.misfires});
+    s.line(whose + "_misfires", std::uint64_t{misfire.counts.misfires}, "", by_rule);
     s.line(whose + "_misfires_in_200_turns", std::uint64_t{misfire.counts.in_200_turns}, "", "its last 100 cycles");
     s.line(whose + "_misfires_in_1000_turns", std::uint64_t{misfire.counts.in_1000_turns}, "", "its last 500 cycles");
   }

@@ -5,6 +5,7 @@
 #include <crankloop/tabulate/mechanism.hpp>
 
 #include "../../command_line/gas_options.hpp"
+#include "../../engine_file/plausibility.hpp"
 #include "../../engine_file/pressure_words.hpp"
 #include "../../loops/run_gas.hpp"
 #include "../../loops/run_valves.hpp"
@@ -52,6 +53,23 @@ void add_brake(Summary& s, const EngineDefinition& definition, const RunFigures&
     s.line("brake_specific_consumption", fuel / brake.power_W * 3.6e9, "g/kWh");
 }
 
+/// What the net mean effective pressure of a trace gains if all its angles are a degree larger.
+double mep_per_deg_Pa(const ExactEngine& engine, double load_ratio) {
+  constexpr int kPerDeg = 10;
+  const Crank& crank = engine.definition().crank;
+  const auto displacement_m = [&](double deg) { return exact_stroke(crank, deg / kDegPerRad).displacement_m; };
+  double sum_J = 0;
+  for (int i = 0; i < 720 * kPerDeg; ++i) {
+    const double deg = (i + 0.5) / kPerDeg;
+    const auto rise_m = [&](double at) {
+      return displacement_m(at + 0.5 / kPerDeg) - displacement_m(at - 0.5 / kPerDeg);
+    };
+    const double pressure_Pa = engine.diagram().motored_Pa(deg) + load_ratio * engine.diagram().heat_Pa(deg);
+    sum_J += pressure_Pa * bore_area_m2(crank) * (rise_m(deg + 0.5) - rise_m(deg - 0.5));
+  }
+  return sum_J / swept_volume_m3(crank);
+}
+
 }  // namespace
 
 Summary summary_of(const HeldEngine& engine, const HeldRequest& request, const RunFigures& f,
@@ -95,6 +113,10 @@ Summary summary_of(const HeldEngine& engine, const HeldRequest& request, const R
     } else {
       s.line("net_mep_exact", summary.net_mep_Pa / 1e3, "kPa", "loop integral of p dV");
       s.line("gross_mep_exact", summary.gross_mep_Pa / 1e3, "kPa", "over the closed 360 deg");
+      if (definition.pressure.source == PressureSource::angle_table) {
+        s.line("net_mep_per_degree", mep_per_deg_Pa(engine.exact, request.operation.load_ratio) / 1e3, "kPa",
+               "too much for each degree by which the trace's angles are too large");
+      }
     }
   }
   add_peaks(s, "torque", f.torque, 1, "Nm");
@@ -102,6 +124,9 @@ Summary summary_of(const HeldEngine& engine, const HeldRequest& request, const R
     const QuantityKind& kind = kQuantityKinds[index_of(quantity)];
     if (engine.has_gas())
       add_peak(s, std::string("max_") + kind.name, f.of[index_of(quantity)].largest, kind.per_si, kind.unit);
+    if (const std::string unusual = unusual_peak(f.of[index_of(quantity)].largest.value);
+        engine.breathes() && quantity == Quantity::pressure && !unusual.empty())
+      s.remark(unusual);
   }
   for (const Quantity quantity : {Quantity::inertia_force, Quantity::total_force, Quantity::side_force,
                                   Quantity::rod_force, Quantity::tangential_force, Quantity::radial_force}) {
