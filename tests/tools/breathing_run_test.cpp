@@ -272,10 +272,23 @@ TEST_F(BreathingRun, TakesItsFuelByItsAirAtAnyThrottle) {
   EXPECT_NE(rich.find("so rich a mixture does not ignite"), std::string::npos) << rich;
   EXPECT_NE(rich.find("a real engine loses torque below a lambda of 0.9"), std::string::npos) << rich;
   EXPECT_EQ(run({kFour, "--rpm", "3000", "--lambda", "0.95"}).find("loses torque"), std::string::npos);
+  const std::vector<std::string> free{kFour, "--free", "--from-rpm", "2000", "--seconds", "0.3"};
+  std::vector<std::string> misfiring = free;
+  misfiring.insert(misfiring.end(), {"--misfire", "cylinder=2 every=3"});
+  EXPECT_NE(run(misfiring).find("# fuel of misfires is in no figure"), std::string::npos);
+  EXPECT_EQ(run(free).find("fuel of misfires"), std::string::npos);
   const std::string lean = run({kFour, "--rpm", "3000", "--lambda", "3"});
   EXPECT_NE(lean.find("so lean a mixture of gasoline does not ignite"), std::string::npos) << lean;
   const std::string diesel = run({kEngines + "diesel_495_gas.ini", "--rpm", "1000", "--lambda", "3"});
   EXPECT_EQ(diesel.find("does not ignite"), std::string::npos) << diesel;
+}
+
+TEST_F(BreathingRun, SaysThatNoEngineHasSuchAPressure) {
+  std::string text = contents(kFour);
+  text.insert(text.find("[gas]\n") + 6, "ambient_kPa = 500\n");
+  std::ofstream(path("boosted.ini")) << text;
+  EXPECT_NE(run({path("boosted.ini"), "--rpm", "3000"}).find("# the largest pressure is 3"), std::string::npos);
+  EXPECT_EQ(run({kFour, "--rpm", "3000"}).find("the largest pressure is"), std::string::npos);
 }
 
 /// An intake of 1.2 m3 behind a closed throttle is still being emptied after 500 cycles.

@@ -1,6 +1,6 @@
 // Slope of a measured cam's lift at both ends of the lobe.
 //
-// What belongs here: slopes from the rows. What does not: whether they are usual (plausibility.cpp).
+// What belongs here: slopes from the rows. What does not: whether they are usual (plausibility_trains.cpp).
 #pragma once
 
 #include <cstddef>

@@ -111,14 +111,12 @@ std::string remark_on_walls(const Walls& walls, const GasFigures& figures) {
 }
 
 /// What the fuel's figure is of, and what of a real engine is not in it.
-std::string remark_on_fuel(const EngineDefinition& engine, double lambda) {
+std::string remark_on_fuel(double lambda) {
   constexpr double kBestTorque = 0.9;  // Heywood, Internal Combustion Engine Fundamentals (1988), section 15.3: 1/1.1
   std::string remark = "of a cylinder's cycle";
   if (lambda > 0 && lambda < 1) remark += "; of a rich mixture the excess gives no heat";
-  if (lambda > 0 && lambda < kBestTorque) remark += ", and a real engine loses torque below a lambda of 0.9";
-  const Misfire* const end = engine.misfires + engine.layout.cylinders;
-  if (std::any_of(engine.misfires, end, [](const Misfire& rule) { return rule.pattern != MisfirePattern::none; }))
-    remark += "; fuel that misfires is not in it";
+  if (lambda > 0 && lambda < kBestTorque)
+    remark += ", and a real engine loses torque below a lambda of " + brief(kBestTorque);
   return remark;
 }
 
@@ -134,7 +132,7 @@ void add_gas(Summary& s, const EngineDefinition& engine, const GasFigures& figur
              (cycle.residual_ratio > kMaxResidualThatBurns && cycle.heat_J > 0
                   ? "; so much makes a real engine misfire, here all fuel burns"
                   : ""));
-  s.line("fuel_burned", cycle.fuel_kg * 1e6, "mg", remark_on_fuel(engine, cycle.excess_air_ratio));
+  s.line("fuel_burned", cycle.fuel_kg * 1e6, "mg", remark_on_fuel(cycle.excess_air_ratio));
   if (const double unburned = unburned_kg(engine.gas, figures); unburned > 0)
     s.line("fuel_unburned", unburned * 1e6, "mg",
            "found no air beside that in crevices; the exhaust's lambda lacks it");

@@ -217,6 +217,7 @@ std::string summary_text(const EngineFile& file, const FreeRequest& request, con
   if (breathes(file.definition())) {
     s.remark("the gas, of the cylinders' last whole cycles");
     s.line("net_mep", f.gas.cycle.net_mep_Pa / 1e3, "kPa");
+    if (!f.misfires.empty()) s.remark("fuel of misfires is in no figure");
     add_gas(s, file.definition(), f.gas);
     s.line("intake_pressure", f.gas.intake_Pa / 1e3, "kPa", "in the manifold, at the end");
   }

@@ -57,17 +57,14 @@ void add_brake(Summary& s, const EngineDefinition& definition, const RunFigures&
 double mep_per_deg_Pa(const ExactEngine& engine, double load_ratio) {
   constexpr int kPerDeg = 10;
   const Crank& crank = engine.definition().crank;
-  const auto displacement_m = [&](double deg) { return exact_stroke(crank, deg / kDegPerRad).displacement_m; };
-  double sum_J = 0;
+  const auto slope_m = [&](double deg) { return exact_pose(crank, deg / kDegPerRad).slope_m; };
+  double sum_N_m = 0;
   for (int i = 0; i < 720 * kPerDeg; ++i) {
-    const double deg = (i + 0.5) / kPerDeg;
-    const auto rise_m = [&](double at) {
-      return displacement_m(at + 0.5 / kPerDeg) - displacement_m(at - 0.5 / kPerDeg);
-    };
+    const double deg = static_cast<double>(i) / kPerDeg;
     const double pressure_Pa = engine.diagram().motored_Pa(deg) + load_ratio * engine.diagram().heat_Pa(deg);
-    sum_J += pressure_Pa * bore_area_m2(crank) * (rise_m(deg + 0.5) - rise_m(deg - 0.5));
+    sum_N_m += pressure_Pa * bore_area_m2(crank) * (slope_m(deg + 0.5) - slope_m(deg - 0.5));
   }
-  return sum_J / swept_volume_m3(crank);
+  return sum_N_m / kPerDeg / kDegPerRad / swept_volume_m3(crank);
 }
 
 }  // namespace
@@ -124,10 +121,9 @@ Summary summary_of(const HeldEngine& engine, const HeldRequest& request, const R
     const QuantityKind& kind = kQuantityKinds[index_of(quantity)];
     if (engine.has_gas())
       add_peak(s, std::string("max_") + kind.name, f.of[index_of(quantity)].largest, kind.per_si, kind.unit);
-    if (const std::string unusual = unusual_peak(f.of[index_of(quantity)].largest.value);
-        engine.breathes() && quantity == Quantity::pressure && !unusual.empty())
-      s.remark(unusual);
   }
+  const std::string unusual = unusual_peak(f.of[index_of(Quantity::pressure)].largest.value);
+  if (engine.breathes() && !unusual.empty()) s.remark(unusual);
   for (const Quantity quantity : {Quantity::inertia_force, Quantity::total_force, Quantity::side_force,
                                   Quantity::rod_force, Quantity::tangential_force, Quantity::radial_force}) {
     const QuantityKind& kind = kQuantityKinds[index_of(quantity)];
