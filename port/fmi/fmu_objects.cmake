@@ -26,7 +26,7 @@ function(crankloop_fmu_objects platform_result flags_result)
 
   add_library(crankloop_fmu_reader OBJECT ${arg_READER})
   crankloop_numerics(crankloop_fmu_reader)
-  set_target_properties(crankloop_fmu_reader PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 10)  # as the program's
+  set_target_properties(crankloop_fmu_reader PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)  # as the program's
   foreach(target IN ITEMS crankloop_fmu_core crankloop_fmu_reader)
     target_include_directories(${target} PRIVATE ${include_dirs})
     crankloop_warnings(${target})

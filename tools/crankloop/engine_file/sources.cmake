@@ -1,0 +1,38 @@
+# Sources of the reader of engine files and of the look at what is implausible in them, from tools/crankloop: the one
+# list for the program, for FMUs and for the page's module.
+set(crankloop_reader_sources
+  engine_file/balancer.cpp
+  engine_file/crankshaft_words.cpp
+  engine_file/engine_file.cpp
+  engine_file/engine_file_explain.cpp
+  engine_file/engine_file_faults.cpp
+  engine_file/engine_file_gas.cpp
+  engine_file/engine_file_keys.cpp
+  engine_file/engine_file_layout.cpp
+  engine_file/engine_file_misfires.cpp
+  engine_file/engine_file_parts.cpp
+  engine_file/engine_file_pins.cpp
+  engine_file/engine_file_section.cpp
+  engine_file/engine_file_trains.cpp
+  engine_file/engine_file_triggers.cpp
+  engine_file/engine_file_values.cpp
+  engine_file/ini_text.cpp
+  engine_file/measured_rows.cpp
+  engine_file/port_geometry.cpp
+  engine_file/settings.cpp
+  engine_file/spring_wire.cpp
+  engine_file/trigger_patterns.cpp
+  files/decimal.cpp
+  files/decimal_by_integers.cpp
+  files/number.cpp
+  files/table_file.cpp
+  files/text_file.cpp
+  files/words.cpp)
+set(crankloop_plausibility_sources
+  engine_file/lobe_feet.cpp
+  engine_file/plausibility.cpp
+  engine_file/plausibility_cylinder.cpp
+  engine_file/plausibility_gas.cpp
+  engine_file/plausibility_signals.cpp
+  engine_file/plausibility_trains.cpp
+  engine_file/usual_ranges.cpp)
