@@ -1,38 +1,38 @@
-# Sources of the reader of engine files and of the look at what is implausible in them, from tools/crankloop: the one
-# list for the program, for FMUs and for the page's module.
+# Sources of the reader of engine files and of the look at what is implausible in them; paths from tools/. The one
+# list for the program, for FMUs, the page's module and the tests of the tests.
 set(crankloop_reader_sources
-  engine_file/balancer.cpp
-  engine_file/crankshaft_words.cpp
-  engine_file/engine_file.cpp
-  engine_file/engine_file_explain.cpp
-  engine_file/engine_file_faults.cpp
-  engine_file/engine_file_gas.cpp
-  engine_file/engine_file_keys.cpp
-  engine_file/engine_file_layout.cpp
-  engine_file/engine_file_misfires.cpp
-  engine_file/engine_file_parts.cpp
-  engine_file/engine_file_pins.cpp
-  engine_file/engine_file_section.cpp
-  engine_file/engine_file_trains.cpp
-  engine_file/engine_file_triggers.cpp
-  engine_file/engine_file_values.cpp
-  engine_file/ini_text.cpp
-  engine_file/measured_rows.cpp
-  engine_file/port_geometry.cpp
-  engine_file/settings.cpp
-  engine_file/spring_wire.cpp
-  engine_file/trigger_patterns.cpp
-  files/decimal.cpp
-  files/decimal_by_integers.cpp
-  files/number.cpp
-  files/table_file.cpp
-  files/text_file.cpp
-  files/words.cpp)
+  crankloop/engine_file/balancer.cpp
+  crankloop/engine_file/crankshaft_words.cpp
+  crankloop/engine_file/engine_file.cpp
+  crankloop/engine_file/engine_file_explain.cpp
+  crankloop/engine_file/engine_file_faults.cpp
+  crankloop/engine_file/engine_file_gas.cpp
+  crankloop/engine_file/engine_file_keys.cpp
+  crankloop/engine_file/engine_file_layout.cpp
+  crankloop/engine_file/engine_file_misfires.cpp
+  crankloop/engine_file/engine_file_parts.cpp
+  crankloop/engine_file/engine_file_pins.cpp
+  crankloop/engine_file/engine_file_section.cpp
+  crankloop/engine_file/engine_file_trains.cpp
+  crankloop/engine_file/engine_file_triggers.cpp
+  crankloop/engine_file/engine_file_values.cpp
+  crankloop/engine_file/ini_text.cpp
+  crankloop/engine_file/measured_rows.cpp
+  crankloop/engine_file/port_geometry.cpp
+  crankloop/engine_file/settings.cpp
+  crankloop/engine_file/spring_wire.cpp
+  crankloop/engine_file/trigger_patterns.cpp
+  crankloop/files/decimal.cpp
+  crankloop/files/decimal_by_integers.cpp
+  crankloop/files/number.cpp
+  crankloop/files/table_file.cpp
+  crankloop/files/text_file.cpp
+  crankloop/files/words.cpp)
 set(crankloop_plausibility_sources
-  engine_file/lobe_feet.cpp
-  engine_file/plausibility.cpp
-  engine_file/plausibility_cylinder.cpp
-  engine_file/plausibility_gas.cpp
-  engine_file/plausibility_signals.cpp
-  engine_file/plausibility_trains.cpp
-  engine_file/usual_ranges.cpp)
+  crankloop/engine_file/lobe_feet.cpp
+  crankloop/engine_file/plausibility.cpp
+  crankloop/engine_file/plausibility_cylinder.cpp
+  crankloop/engine_file/plausibility_gas.cpp
+  crankloop/engine_file/plausibility_signals.cpp
+  crankloop/engine_file/plausibility_trains.cpp
+  crankloop/engine_file/usual_ranges.cpp)
